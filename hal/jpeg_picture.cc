@@ -10,9 +10,8 @@
 namespace relievo::hal {
 
 Result<std::vector<std::byte>> encode_jpeg(const ImageView& image, int quality_percent) try {
-  if (image.empty()) return Error{Errc::InvalidInput, "there is no picture to write"};
-  if (image.format == PixelFormat::Grey16)
-    return Error{Errc::InvalidInput, "a JPEG cannot hold 16 bit; write a .png"};
+  if (image.empty()) return invalid("there is no picture to write");
+  if (image.format == PixelFormat::Grey16) return invalid("a JPEG cannot hold 16 bit; write a .png");
   const bool grey = image.format == PixelFormat::Grey8;
   const std::unique_ptr<void, int (*)(tjhandle)> handle(tjInitCompress(), tjDestroy);
   if (!handle) return Error{Errc::OutOfMemory, "no memory to encode a picture"};

@@ -8,7 +8,7 @@
 namespace relievo::hal {
 
 Result<Picture> reduced(const ImageView& image, int width_px, int height_px) try {
-  if (image.empty()) return Error{Errc::InvalidInput, "there is no picture to make smaller"};
+  if (image.empty()) return invalid("there is no picture to make smaller");
   const bool colour = image.format == PixelFormat::Rgb8;
   const int type = colour ? CV_8UC3 : image.format == PixelFormat::Grey16 ? CV_16UC1 : CV_8UC1;
   // OpenCV has no const Mat over foreign bytes; this one is only read.
@@ -22,8 +22,7 @@ Result<Picture> reduced(const ImageView& image, int width_px, int height_px) try
   cv::resize(whole, small, small.size(), 0, 0, cv::INTER_AREA);
   return picture;
 } catch (const cv::Exception& refused) {
-  if (refused.code != cv::Error::StsNoMem)
-    return Error{Errc::InvalidInput, "this picture cannot be made so small"};
+  if (refused.code != cv::Error::StsNoMem) return invalid("this picture cannot be made so small");
   return Error{Errc::OutOfMemory, "no memory to make a picture smaller"};
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to make a picture smaller"};

@@ -37,13 +37,13 @@ bool starts_with(std::span<const std::byte> b, std::string_view signature) {
   return std::string_view(reinterpret_cast<const char*>(b.data()), b.size()).starts_with(signature);
 }
 
-Error truncated() { return Error{Errc::InvalidInput, "this picture is cut off; copy it again"}; }
+Error truncated() { return invalid("this picture is cut off; copy it again"); }
 
 // Walks the chunks (length, type, data, sum) to IEND: ISO/IEC 15948, 5.
 Result<PictureHeader> png_header(std::span<const std::byte> b) {
   if (b.size() < 33) return truncated();
   if (big_endian_32(b, 12) != 0x49484452U)  // "IHDR"
-    return Error{Errc::InvalidInput, "this PNG does not begin with its header"};
+    return invalid("this PNG does not begin with its header");
   const PictureHeader header{static_cast<long>(big_endian_32(b, 16)),
                              static_cast<long>(big_endian_32(b, 20))};
   std::size_t at = kPngSignature.size();
@@ -54,10 +54,6 @@ Result<PictureHeader> png_header(std::span<const std::byte> b) {
     at += 12 + length;
   }
   return truncated();
-}
-
-bool is_start_of_frame(unsigned marker) {
-  return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
 // Camera firmware pads files with zeros after the end marker; anything else there is not an end.
@@ -71,13 +67,13 @@ bool ends_with_end_marker(std::span<const std::byte> b) {
 Result<PictureHeader> jpeg_header(std::span<const std::byte> b) {
   std::size_t at = 2;
   while (at + 9 < b.size()) {
-    if (byte_at(b, at) != 0xff) return Error{Errc::InvalidInput, "this JPEG is damaged"};
+    if (byte_at(b, at) != 0xff) return invalid("this JPEG is damaged");
     const unsigned marker = byte_at(b, at + 1);
     if (marker == 0xff || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8)) {
       at += marker == 0xff ? 1 : 2;
       continue;
     }
-    if (is_start_of_frame(marker)) {
+    if (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) {  // a frame
       if (!ends_with_end_marker(b)) return truncated();
       return PictureHeader{static_cast<long>(big_endian_16(b, at + 7)),
                            static_cast<long>(big_endian_16(b, at + 5))};
@@ -88,24 +84,14 @@ Result<PictureHeader> jpeg_header(std::span<const std::byte> b) {
 }
 
 Result<PictureHeader> header_of(std::span<const std::byte> bytes) {
-  if (bytes.empty()) return Error{Errc::InvalidInput, "this picture is empty"};
+  if (bytes.empty()) return invalid("this picture is empty");
   if (starts_with(bytes, kPngSignature)) return png_header(bytes);
   if (starts_with(bytes, "\xff\xd8\xff")) return jpeg_header(bytes);
-  return Error{Errc::InvalidInput, "this is neither a PNG nor a JPEG picture"};
+  return invalid("this is neither a PNG nor a JPEG picture");
 }
 
 // No picture within the limits is larger than this, even stored without any compression.
 constexpr std::size_t kMaxEncodedBytes = std::size_t(kMaxPictureAreaPx) * 8 + (1U << 20);
-
-Result<void> check_limits(const PictureHeader& header) {
-  if (header.width_px <= 0 || header.height_px <= 0)
-    return Error{Errc::InvalidInput, "this picture has no size"};
-  if (header.width_px > kMaxPictureSidePx || header.height_px > kMaxPictureSidePx ||
-      header.width_px * header.height_px > kMaxPictureAreaPx)
-    return Error{Errc::InvalidInput,
-                 "this picture is larger than the limit of 8192 px a side and 40 megapixels"};
-  return {};
-}
 
 }  // namespace
 
@@ -117,7 +103,10 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
   RELIEVO_TRY_ASSIGN(const PictureHeader header, header_of({bytes, size}));
-  RELIEVO_TRY(check_limits(header));
+  if (header.width_px <= 0 || header.height_px <= 0) return invalid("this picture has no size");
+  if (header.width_px > kMaxPictureSidePx || header.height_px > kMaxPictureSidePx ||
+      header.width_px * header.height_px > kMaxPictureAreaPx)
+    return invalid("this picture is larger than the limit of 8192 px a side and 40 megapixels");
   if (starts_with({bytes, size}, kPngSignature)) return decode_png({bytes, size});
   // The orientation tag is not read: a calibration knows the sensor's pixels, not how a viewer turns them.
   Picture picture{{}, int(header.width_px), int(header.height_px), PixelFormat::Rgb8};
@@ -141,8 +130,7 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
   const std::string extension = lower_extension(file);
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!jpeg && extension != ".png")
-    return Error{Errc::InvalidInput, "pictures are written as .png or .jpg; choose one of these names"}.at(
-        file.native());
+    return invalid("pictures are written as .png or .jpg; choose one of these names").at(file.native());
   Result<std::vector<std::byte>> bytes = jpeg ? encode_jpeg(image, 95) : encode_png(image);
   if (!bytes) return bytes.error().at(file.native());
   return write_whole_file(file, *bytes);

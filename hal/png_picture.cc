@@ -109,7 +109,7 @@ bool read_rows(Reading& reading, png_bytep* rows) {
 }  // namespace
 
 Result<std::vector<std::byte>> encode_png(const ImageView& image, const PngForm& form) try {
-  if (image.empty()) return Error{Errc::InvalidInput, "there is no picture to write"};
+  if (image.empty()) return invalid("there is no picture to write");
   std::vector<std::byte> out;
   out.reserve(std::size_t(image.width_px) * std::size_t(image.height_px * bytes_per_pixel(image.format)) / 2);
   if (write(image, form, &out)) return out;
@@ -123,7 +123,7 @@ Result<Picture> decode_png(std::span<const std::byte> bytes) try {
   Reading reading;
   const auto failed = [&refused] {
     return refused ? Error{Errc::OutOfMemory, "no memory to decode this picture"}
-                   : Error{Errc::InvalidInput, "this picture is damaged and cannot be decoded"};
+                   : invalid("this picture is damaged and cannot be decoded");
   };
   if (!begin(reading, &refused, &bytes)) return failed();
   const bool deep = png_get_bit_depth(reading.png, reading.info) == 16;

@@ -61,7 +61,7 @@ class TriggerLine {
   // InvalidInput: no width, or one over kLongestPulse. Timeout: the light must rest until flash_allowed_at().
   Result<void> pulse(std::chrono::microseconds width, Light light = Light::Off) {
     if (width.count() <= 0 || width > kLongestPulse)
-      return Error{Errc::InvalidInput, "a trigger pulse lasts from 1 microsecond to 0.1 s"};
+      return invalid("a trigger pulse lasts from 1 microsecond to 0.1 s");
     const std::lock_guard lock(mutex_);
     const bool lit = light == Light::Flash || lights_with_every_pulse();
     const Instant begin = clock_.now();

@@ -71,11 +71,6 @@ std::size_t Pipeline::surface_matches(const StereoFrame& frame, StageContext& co
   return cloud && kLeastShare * cloud->points.size() > matches->matches.size() ? cloud->points.size() : 0;
 }
 
-bool Pipeline::matches_swapped(const StereoFrame& frame, StageContext& context) const {
-  const StereoFrame swapped{frame.right, frame.left, frame.sequence, frame.skew_ns};
-  return surface_matches(swapped, context) > 2 * surface_matches(frame, context);
-}
-
 std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& context) const {
   std::optional<PairFault> fault;
   const Result<void> looked = run_stage(context, [&](StageContext& c) -> Result<void> {
@@ -84,7 +79,9 @@ std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& c
   });
   if (!looked || context.stop()) return std::nullopt;
   const bool light = fault && error_of(*fault).code == Errc::NoFace;
-  if (!light && fault != PairFault::SamePicture && matches_swapped(frame, context))
+  const StereoFrame swapped{frame.right, frame.left, frame.sequence, frame.skew_ns};
+  if (!light && fault != PairFault::SamePicture &&
+      surface_matches(swapped, context) > 2 * surface_matches(frame, context))
     fault = PairFault::Swapped;
   return fault ? std::optional(error_of(*fault)) : std::nullopt;
 }

@@ -65,7 +65,6 @@ class Pipeline {
  private:
   Pipeline() = default;
   std::size_t surface_matches(const StereoFrame& frame, StageContext& context) const;
-  bool matches_swapped(const StereoFrame& frame, StageContext& context) const;
   Result<void> judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair,
                             StageContext& context) const;
   AlgorithmSet set_;

@@ -68,6 +68,7 @@ struct Error {
     return copy;
   }
 };
+constexpr Error invalid(Literal what) { return {Errc::InvalidInput, what}; }
 
 template <typename T>
 class [[nodiscard]] Result {

@@ -17,6 +17,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace relievo {
@@ -33,6 +34,16 @@ class ThreadPool {
 
   using Band = std::function<void(int begin, int end, int band)>;
   void for_each_band(int count, int bands, const Band& work);
+  // work(i), or work(i, band), for each of [0, count). Takes nothing from the heap, however much `work`
+  // refers to.
+  template <typename Index = int, typename Work>
+  void for_each(int count, int bands, const Work& work) {
+    for_each_band(count, bands, [&work](int begin, int end, [[maybe_unused]] int band) {
+      for (int i = begin; i < end; ++i)
+        if constexpr (std::is_invocable_v<const Work&, Index, int>) work(Index(i), band);
+        else work(Index(i));
+    });
+  }
 
  private:
   void serve();

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <new>
-#include <string>
 #include <system_error>
 
 namespace relievo {
@@ -58,27 +57,12 @@ int write_all(int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
-bool is_device(const fs::path& file) {
-  struct stat info {};
-  return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
-}
-
 Result<void> sync_one(const fs::path& named, int flags) {
   const Descriptor file{::open(named.c_str(), O_RDONLY | O_CLOEXEC | flags)};
   if (file.fd < 0) return failed(named, errno);
   // Not every file system can sync a directory (EINVAL): then there is nothing more to be had.
   if (::fsync(file.fd) != 0 && errno != EINVAL && errno != ENOTSUP) return failed(named, errno);
   return {};
-}
-
-Result<std::size_t> regular_size(int fd, const fs::path& file, std::size_t limit_bytes) {
-  struct stat info {};
-  if (::fstat(fd, &info) != 0) return Error{Errc::IoFailed, "cannot read this file", errno}.at(file.native());
-  if (!S_ISREG(info.st_mode)) return Error{Errc::InvalidInput, "this is not a file"}.at(file.native());
-  const auto size = std::size_t(info.st_size);
-  if (size > limit_bytes)
-    return Error{Errc::InvalidInput, "this file is larger than its limit"}.at(file.native());
-  return size;
 }
 
 Result<std::vector<std::byte>> read_file(const fs::path& file, std::size_t limit_bytes, int flags) try {
@@ -90,7 +74,12 @@ Result<std::vector<std::byte>> read_file(const fs::path& file, std::size_t limit
       return Error{Errc::NotFound, "there is no such file; check its name", number}.at(file.native());
     return Error{Errc::IoFailed, "cannot open this file", number}.at(file.native());
   }
-  RELIEVO_TRY_ASSIGN(const std::size_t size, regular_size(in.fd, file, limit_bytes));
+  struct stat info {};
+  if (::fstat(in.fd, &info) != 0)
+    return Error{Errc::IoFailed, "cannot read this file", errno}.at(file.native());
+  if (!S_ISREG(info.st_mode)) return invalid("this is not a file").at(file.native());
+  const auto size = std::size_t(info.st_size);
+  if (size > limit_bytes) return invalid("this file is larger than its limit").at(file.native());
   std::vector<std::byte> bytes(size);
   std::size_t got = 0;
   while (got < size) {
@@ -109,7 +98,7 @@ Result<std::vector<std::byte>> read_file(const fs::path& file, std::size_t limit
 
 Result<std::vector<std::byte>> read_whole_file(const fs::path& file, std::size_t limit_bytes) {
   auto bytes = read_file(file, limit_bytes, 0);
-  if (bytes && bytes->empty()) return Error{Errc::InvalidInput, "this file is empty"}.at(file.native());
+  if (bytes && bytes->empty()) return invalid("this file is empty").at(file.native());
   return bytes;
 }
 
@@ -170,9 +159,9 @@ Result<void> sync_renamed(const fs::path& target) {
 
 Result<void> write_whole_file(const fs::path& file, std::span<const std::byte> bytes,
                               const std::function<Result<void>()>& before, unsigned mode) {
-  if (file.filename().empty())
-    return Error{Errc::InvalidInput, "this is not the name of a file"}.at(file.native());
-  if (is_device(file)) {
+  if (file.filename().empty()) return invalid("this is not the name of a file").at(file.native());
+  struct stat info {};
+  if (::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) {  // a device
     const Descriptor out{::open(file.c_str(), O_WRONLY | O_CLOEXEC)};
     const int cause = out.fd < 0 ? errno : write_all(out.fd, bytes);
     if (cause != 0) return failed(file, cause);

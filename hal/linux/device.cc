@@ -3,10 +3,7 @@
 #include "hal/linux/device.h"
 
 #include <fstream>
-#include <optional>
-#include <string>
 
-#include "hal/clock.h"
 #include "hal/linux/mounted_stick.h"
 #include "hal/linux/side_by_side.h"
 

@@ -36,8 +36,7 @@ Result<std::chrono::seconds> set_timeout(Kernel& kernel, int file, std::chrono::
   if (set < 0 && call(kernel, file, WDIOC_GETTIMEOUT, &seconds) < 0)
     return Error{Errc::IoFailed, "the watchdog does not tell its time", -set};
   if (seconds < kLeast.count())
-    return Error{Errc::InvalidInput,
-                 "the watchdog waits for less than two seconds: the loop may rest so long"};
+    return invalid("the watchdog waits for less than two seconds: the loop may rest so long");
   return std::chrono::seconds(seconds);
 }
 
@@ -74,9 +73,8 @@ class HardwareWatchdog final : public Watchdog {
 }  // namespace
 
 Result<void> WatchdogOptions::check() const {
-  if (device.empty()) return Error{Errc::InvalidInput, "the watchdog's device is missing"}.at("[watchdog]");
-  if (timeout < kLeast || timeout > kMost)
-    return Error{Errc::InvalidInput, "timeout_s must lie in 2 .. 300"}.at("[watchdog]");
+  if (device.empty()) return invalid("the watchdog's device is missing").at("[watchdog]");
+  if (timeout < kLeast || timeout > kMost) return invalid("timeout_s must lie in 2 .. 300").at("[watchdog]");
   return {};
 }
 

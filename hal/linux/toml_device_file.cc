@@ -66,9 +66,8 @@ class Words {
     if (problem_) return;
     const auto line = node == nullptr ? 0 : node->source().begin.line;
     problem_ =
-        Error{
-            Errc::InvalidInput,
-            "this word is missing, unknown or cannot be used: see hal/linux/README.md (installed: share/doc/relievo/board.md)"}
+        invalid(
+            "this word is missing, unknown or cannot be used: see hal/linux/README.md (installed: share/doc/relievo/board.md)")
             .at(file_ + (line > 0 ? " line " + std::to_string(line) : std::string()) + ": " +
                 std::string(word));
   }
@@ -90,14 +89,6 @@ V4l2CameraOptions camera_of(Words& words, const toml::table& table, bool trigger
   for (std::size_t i = 0; i < format.size() && i < 4; ++i)
     camera.fourcc |= std::uint32_t(static_cast<unsigned char>(format[i])) << (8 * i);
   return camera;
-}
-
-void read_mode(Words& words, CaptureMode& mode) {
-  const toml::table* table = words.table("mode", {"width_px", "height_px", "exposure_us"});
-  if (table == nullptr) return words.wrong(nullptr, "[mode]");
-  mode.width_px = int(words.number(*table, "width_px", 16, kMaxRawSidePx, 0, true));
-  mode.height_px = int(words.number(*table, "height_px", 16, kMaxRawSidePx, 0, true));
-  mode.exposure = std::chrono::microseconds(words.number(*table, "exposure_us", 1, 100'000, 0));
 }
 
 void read_wires(Words& words, LinuxDeviceOptions& options) {
@@ -126,7 +117,18 @@ void read_wires(Words& words, LinuxDeviceOptions& options) {
   options.trigger = gpio;
 }
 
-void read_machine(Words& words, LinuxDeviceOptions& options) {
+Result<LinuxDeviceOptions> options_of(const toml::table& root, const std::string& file) {
+  Words words(root, file);
+  words.only_tables({"mode", "left", "right", "both", "trigger", "lamp", "stick", "watchdog"});
+  LinuxDeviceOptions options;
+  if (const toml::table* mode = words.table("mode", {"width_px", "height_px", "exposure_us"})) {
+    options.mode.width_px = int(words.number(*mode, "width_px", 16, kMaxRawSidePx, 0, true));
+    options.mode.height_px = int(words.number(*mode, "height_px", 16, kMaxRawSidePx, 0, true));
+    options.mode.exposure = std::chrono::microseconds(words.number(*mode, "exposure_us", 1, 100'000, 0));
+  } else {
+    words.wrong(nullptr, "[mode]");
+  }
+  read_wires(words, options);
   if (const toml::table* stick = words.table("stick", {"folder"})) {
     options.stick_folder = words.path(*stick, "folder");
   }
@@ -137,15 +139,6 @@ void read_machine(Words& words, LinuxDeviceOptions& options) {
         std::chrono::seconds(words.number(*table, "timeout_s", 2, 300, watchdog.timeout.count()));
     options.watchdog = watchdog;
   }
-}
-
-Result<LinuxDeviceOptions> options_of(const toml::table& root, const std::string& file) {
-  Words words(root, file);
-  words.only_tables({"mode", "left", "right", "both", "trigger", "lamp", "stick", "watchdog"});
-  LinuxDeviceOptions options;
-  read_mode(words, options.mode);
-  read_wires(words, options);
-  read_machine(words, options);
   const toml::table* left = words.table("left", {"device", "serial", "format"});
   const toml::table* right = words.table("right", {"device", "serial", "format"});
   const toml::table* both = words.table("both", {"device", "serial", "format"});
@@ -171,8 +164,7 @@ Result<LinuxDeviceOptions> read_linux_device_file(const std::filesystem::path& f
   try {
     return options_of(toml::parse(text, file.native()), file.native());
   } catch (const toml::parse_error& error) {
-    return Error{Errc::InvalidInput,
-                 "this is not valid TOML: see hal/linux/README.md (installed: share/doc/relievo/board.md)"}
+    return invalid("this is not valid TOML: see hal/linux/README.md (installed: share/doc/relievo/board.md)")
         .at(file.native() + " line " + std::to_string(error.source().begin.line));
   }
 }

@@ -55,8 +55,7 @@ Result<void> V4l2Camera::do_open(const CaptureMode& mode) {
 Result<void> V4l2Camera::set_up(const CaptureMode& mode) {
   serial_ = kernel_.serial_of(options_.device.c_str());
   if (!options_.serial.empty() && options_.serial != serial_)
-    return Error{Errc::InvalidInput,
-                 "another camera is plugged in here than the one calibrated: swap it back, or calibrate"};
+    return invalid("another camera is plugged in here than the one calibrated: swap it back, or calibrate");
   RELIEVO_TRY_ASSIGN(stream_, set_up_stream(kernel_, file_, mode, options_.fourcc));
   if (options_.triggered) RELIEVO_TRY(set_external_trigger(kernel_, file_));
   if (mode.exposure.count() > 0) {
@@ -131,11 +130,6 @@ void V4l2Camera::do_stop() {
   call(kernel_, file_, VIDIOC_STREAMOFF, &type);  // of a camera that is gone: nothing left to stop
 }
 
-bool V4l2Camera::all_lent() const {
-  return std::all_of(buffers_.begin(), buffers_.begin() + std::ptrdiff_t(count_),
-                     [](const Buffer& b) { return b.lent; });
-}
-
 Result<void> V4l2Camera::wait(Instant deadline) {
   using std::chrono::milliseconds;
   const auto left = std::chrono::ceil<milliseconds>(deadline - clock_.now());
@@ -148,7 +142,8 @@ Result<void> V4l2Camera::wait(Instant deadline) {
 }
 
 Result<Frame> V4l2Camera::do_next_frame(Instant deadline) {
-  if (all_lent()) return Error{Errc::Timeout, "every buffer of this camera is lent out; give a frame back"};
+  if (std::ranges::all_of(std::span(buffers_).first(count_), &Buffer::lent))
+    return Error{Errc::Timeout, "every buffer of this camera is lent out; give a frame back"};
   v4l2_buffer buffer = empty_buffer(0);
   for (int r = -EAGAIN; r != 0;) {
     const bool last = clock_.now() >= deadline;  // what came at the last moment is taken

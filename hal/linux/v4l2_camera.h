@@ -102,7 +102,6 @@ class V4l2Camera final : public Camera {
   Result<void> map_buffers();
   Result<void> queue(std::size_t index);
   Result<void> wait(Instant deadline);
-  bool all_lent() const;
   void release();
   static void give_back(void* owner, int slot);
 

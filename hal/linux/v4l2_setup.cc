@@ -49,8 +49,7 @@ Result<void> set_control(Kernel& kernel, int file, std::uint32_t id, std::int64_
   control.value = std::int32_t(value);
   const int r = call(kernel, file, VIDIOC_S_CTRL, &control);
   if (r == -EBUSY) return Error{Errc::IoFailed, "another program holds this camera's controls: close it"};
-  if (r == -ERANGE || r == -EINVAL)
-    return Error{Errc::InvalidInput, "the camera refuses this value of a control"};
+  if (r == -ERANGE || r == -EINVAL) return invalid("the camera refuses this value of a control");
   if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not take a control"});
   return {};
 }
@@ -274,7 +273,7 @@ Result<void> apply_exposure(Kernel& kernel, int file, const Exposure& exposure) 
   RELIEVO_TRY_ASSIGN(const ExposureLimits limits, query_exposure(kernel, file));
   if (exposure.time < limits.least.time || exposure.time > limits.most.time ||
       exposure.gain < limits.least.gain || exposure.gain > limits.most.gain)
-    return Error{Errc::InvalidInput, "this exposure is outside what the camera can do"};
+    return invalid("this exposure is outside what the camera can do");
   RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL));
   RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_AUTOGAIN, 0));
   RELIEVO_TRY(set_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE,

@@ -3,12 +3,10 @@
 #include "hal/raw/develop.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 #include "hal/base/assert.h"
-#include "hal/raw/raw_image.h"
 
 namespace relievo::hal {
 namespace {
@@ -103,18 +101,16 @@ void plain_rows(const RawImage& raw, std::byte* out) {
   RELIEVO_ASSERT(false && "these are no rows of samples");
 }
 
-// In the scratch, because OpenCV's edge-aware demosaic is wrong for rows with padding (seen in 4.6).
-Result<void> develop_mosaic(const RawImage& raw, std::byte* rgb, std::byte* scratch) {
-  plain_rows<To8>(raw, scratch);
-  const RawImage mosaic{scratch,      std::size_t(raw.width_px) * std::size_t(raw.height_px),
-                        raw.width_px, raw.height_px,
-                        raw.width_px, {RawCoding::Bits8, raw.format.filter}};
-  return demosaic(mosaic, rgb);
-}
-
 Result<void> fill(const RawImage& raw, ImageView& view, std::byte* out, std::byte* scratch) {
   const RawCoding coding = raw.format.coding;
-  if (raw.format.filter != ColourFilter::None) return develop_mosaic(raw, out, scratch);
+  if (raw.format.filter != ColourFilter::None) {
+    // In the scratch, because OpenCV's edge-aware demosaic is wrong for rows with padding (seen in 4.6).
+    plain_rows<To8>(raw, scratch);
+    const auto bytes = std::size_t(raw.width_px) * std::size_t(raw.height_px);
+    return demosaic(
+        {scratch, bytes, raw.width_px, raw.height_px, raw.width_px, {RawCoding::Bits8, raw.format.filter}},
+        out);
+  }
   if (coding == RawCoding::Yuyv || coding == RawCoding::Nv12) return yuv_to_rgb(raw, out);
   if (coding == RawCoding::Mjpeg) {
     RELIEVO_TRY_ASSIGN(view.format, decode_jpeg(raw, out));
@@ -134,15 +130,13 @@ std::size_t develop_scratch_bytes(const RawFormat& format, int width_px, int hei
 
 Result<ImageView> develop(const RawImage& raw, std::span<std::byte> room, std::span<std::byte> scratch) {
   RELIEVO_TRY(check_shape(raw));
-  if (is_short(raw))
-    return Error{Errc::InvalidInput, "the camera's picture has too few bytes: check its cable"};
+  if (is_short(raw)) return invalid("the camera's picture has too few bytes: check its cable");
   ImageView view{room.data(), raw.width_px, raw.height_px, 0, developed_format(raw.format)};
   view.stride_bytes = raw.width_px * bytes_per_pixel(view.format);
   if (std::size_t(view.stride_bytes) * std::size_t(raw.height_px) > room.size() ||
       develop_scratch_bytes(raw.format, raw.width_px, raw.height_px) > scratch.size())
-    return Error{
-        Errc::InvalidInput,
-        "the picture is larger than those that memory was taken for at the start: choose a smaller mode"};
+    return invalid(
+        "the picture is larger than those that memory was taken for at the start: choose a smaller mode");
   RELIEVO_TRY(fill(raw, view, room.data(), scratch.data()));
   return view;
 }

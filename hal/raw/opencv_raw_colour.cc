@@ -11,18 +11,10 @@
 namespace relievo::hal {
 namespace {
 
-// OpenCV names a filter by the second and third pixel of the second row.
-int edge_aware(ColourFilter filter) {
-  switch (filter) {
-    case ColourFilter::Rggb: return cv::COLOR_BayerBG2RGB_EA;
-    case ColourFilter::Grbg: return cv::COLOR_BayerGB2RGB_EA;
-    case ColourFilter::Gbrg: return cv::COLOR_BayerGR2RGB_EA;
-    case ColourFilter::Bggr: return cv::COLOR_BayerRG2RGB_EA;
-    case ColourFilter::None: break;
-  }
-  RELIEVO_ASSERT(false && "without a filter there is no mosaic");
-  return 0;
-}
+// By ColourFilter, from the first one on. OpenCV names a filter by the second and third pixel of the second
+// row.
+constexpr int kEdgeAware[] = {cv::COLOR_BayerBG2RGB_EA, cv::COLOR_BayerGB2RGB_EA, cv::COLOR_BayerGR2RGB_EA,
+                              cv::COLOR_BayerRG2RGB_EA};
 
 Result<void> convert(const RawImage& raw, int type, int rows, int code, std::byte* rgb) try {
   // OpenCV has no const Mat over foreign bytes; this one is only read.
@@ -43,7 +35,8 @@ Result<void> convert(const RawImage& raw, int type, int rows, int code, std::byt
 }  // namespace
 
 Result<void> demosaic(const RawImage& raw, std::byte* rgb) {
-  return convert(raw, CV_8UC1, raw.height_px, edge_aware(raw.format.filter), rgb);
+  RELIEVO_ASSERT(raw.format.filter != ColourFilter::None);  // without a filter there is no mosaic
+  return convert(raw, CV_8UC1, raw.height_px, kEdgeAware[int(raw.format.filter) - 1], rgb);
 }
 
 Result<void> yuv_to_rgb(const RawImage& raw, std::byte* rgb) {

@@ -37,22 +37,21 @@ std::size_t raw_whole_bytes(const RawImage& raw) {
 Result<void> check_shape(const RawImage& raw) {
   const RawCoding coding = raw.format.coding;
   if (raw.bytes == nullptr || raw.width_px <= 0 || raw.height_px <= 0)
-    return Error{Errc::InvalidInput, "the camera gave a picture without pixels: check its cable"};
+    return invalid("the camera gave a picture without pixels: check its cable");
   if (raw.width_px > kMaxRawSidePx || raw.height_px > kMaxRawSidePx)
-    return Error{Errc::InvalidInput,
-                 "the camera's picture is larger than 8192 px a side: choose a smaller mode"};
+    return invalid("the camera's picture is larger than 8192 px a side: choose a smaller mode");
   if (coding != RawCoding::Mjpeg &&
       (raw.stride_bytes < 0 || std::size_t(raw.stride_bytes) < raw_row_bytes(coding, raw.width_px)))
-    return Error{Errc::InvalidInput, "the camera's rows are shorter than its picture is wide"};
+    return invalid("the camera's rows are shorter than its picture is wide");
   const bool odd_width = raw.width_px % 2 != 0;
   const bool odd_height = raw.height_px % 2 != 0;
   if ((coding == RawCoding::Yuyv && odd_width) || (coding == RawCoding::Nv12 && (odd_width || odd_height)))
-    return Error{Errc::InvalidInput, "pixels that share their colour need even sides"};
+    return invalid("pixels that share their colour need even sides");
   if (raw.format.filter == ColourFilter::None) return {};
   if (!is_samples(coding) || coding == RawCoding::Bits16)
-    return Error{Errc::InvalidInput, "a colour filter lies over samples of 8, 10 or 12 bit only"};
+    return invalid("a colour filter lies over samples of 8, 10 or 12 bit only");
   if (odd_width || odd_height || raw.width_px < 4 || raw.height_px < 4)
-    return Error{Errc::InvalidInput, "a picture behind a colour filter needs even sides of at least 4 px"};
+    return invalid("a picture behind a colour filter needs even sides of at least 4 px");
   return {};
 }
 

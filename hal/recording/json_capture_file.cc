@@ -25,11 +25,10 @@ std::string recorded_name(const char* side, std::int64_t number) {
 
 Result<std::int64_t> record_pair(const std::filesystem::path& folder, const RecordedPair& pair) {
   if (pair.left.empty() || pair.right.empty())
-    return Error{Errc::InvalidInput, "a pair without pixels cannot be recorded"}.at(folder.string());
+    return invalid("a pair without pixels cannot be recorded").at(folder.string());
   if (pair.left.width_px != pair.right.width_px || pair.left.height_px != pair.right.height_px ||
       pair.left.format != pair.right.format)
-    return Error{Errc::InvalidInput, "the two views differ in size or format: they are no pair"}.at(
-        folder.string());
+    return invalid("the two views differ in size or format: they are no pair").at(folder.string());
   std::error_code failed;
   std::filesystem::create_directory(folder, failed);
   if (failed)
@@ -39,7 +38,7 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   std::int64_t number = 1;
   for (const CaptureRecord& frame : capture.frames) number = std::max(number, frame.number + 1);
   if (number > kMostNumber)
-    return Error{Errc::InvalidInput, "this recording has no number left: begin another"}.at(folder.string());
+    return invalid("this recording has no number left: begin another").at(folder.string());
   RELIEVO_TRY(write_picture(folder / recorded_name("left", number), pair.left));
   RELIEVO_TRY(write_picture(folder / recorded_name("right", number), pair.right));
   capture.left_serial = pair.left_serial;
@@ -54,16 +53,6 @@ namespace {
 
 constexpr std::size_t kLimitBytes = 16U << 20;
 
-CaptureRecord record_of(const nlohmann::json& frame) {
-  CaptureRecord r;
-  r.number = frame.at("number").get<std::int64_t>();
-  r.left_ns = frame.at("left_ns").get<std::int64_t>();
-  r.right_ns = frame.at("right_ns").get<std::int64_t>();
-  r.exposure_us = frame.value("exposure_us", std::int64_t{0});
-  r.gain = frame.value("gain", 1.0);
-  return r;
-}
-
 }  // namespace
 
 Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
@@ -77,16 +66,19 @@ Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
   }
   capture.head = json.value("head", false);
   for (const auto& frame : json.at("frames")) {
-    capture.frames.push_back(record_of(frame));
+    capture.frames.push_back({.number = frame.at("number").get<std::int64_t>(),
+                              .left_ns = frame.at("left_ns").get<std::int64_t>(),
+                              .right_ns = frame.at("right_ns").get<std::int64_t>(),
+                              .exposure_us = frame.value("exposure_us", std::int64_t{0}),
+                              .gain = frame.value("gain", 1.0)});
     if (const auto number = capture.frames.back().number; number < 0 || number > kMostNumber)
-      return Error{Errc::InvalidInput, "a frame's number is 0 to 999999"}.at(file.native());
+      return invalid("a frame's number is 0 to 999999").at(file.native());
   }
   return capture;
 } catch (const nlohmann::json::parse_error&) {
-  return Error{Errc::InvalidInput, "this is not valid JSON; record it again or remove it"}.at(file.native());
+  return invalid("this is not valid JSON; record it again or remove it").at(file.native());
 } catch (const nlohmann::json::exception&) {
-  return Error{Errc::InvalidInput,
-               "a frame needs number, left_ns and right_ns, all numbers, and head is true or false"}
+  return invalid("a frame needs number, left_ns and right_ns, all numbers, and head is true or false")
       .at(file.native());
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
@@ -113,8 +105,7 @@ Result<void> write_capture_file(const std::filesystem::path& file, const Capture
   const std::string text = json.dump(1) + "\n";
   return write_whole_file(file, std::as_bytes(std::span(text)));
 } catch (const nlohmann::json::exception&) {
-  return Error{Errc::InvalidInput, "a camera's serial number is no UTF-8 and cannot be recorded"}.at(
-      file.native());
+  return invalid("a camera's serial number is no UTF-8 and cannot be recorded").at(file.native());
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to write this file"}.at(file.native());
 }

@@ -37,16 +37,15 @@ Vec3 across(Vec3 direction) { return normalised(Vec3{direction.z, 0, -direction.
 
 Result<void> BoardPattern::check() const {
   if (corners_x < 3 || corners_y < 3 || corners_x > 60 || corners_y > 60)
-    return Error{Errc::InvalidInput, "a board has between 3 and 60 inner corners a side"};
+    return invalid("a board has between 3 and 60 inner corners a side");
   if (!(square_mm >= 1) || !(square_mm <= 500))
-    return Error{Errc::InvalidInput, "the squares of a board measure between 1 and 500 mm"};
+    return invalid("the squares of a board measure between 1 and 500 mm");
   if (kind == BoardKind::Chessboard) return {};
   if (!(marker_side_mm() >= 0.3 * square_mm) || !(marker_side_mm() <= 0.9 * square_mm))
-    return Error{Errc::InvalidInput, "a marker measures between 0.3 and 0.9 of its square"};
-  if (marker_bits < 4 || marker_bits > 7)
-    return Error{Errc::InvalidInput, "a marker has between 4 and 7 bits a side"};
+    return invalid("a marker measures between 0.3 and 0.9 of its square");
+  if (marker_bits < 4 || marker_bits > 7) return invalid("a marker has between 4 and 7 bits a side");
   if (marker_count(*this) > kMostMarkers)
-    return Error{Errc::InvalidInput, "a ChArUco board has at most 1000 markers; choose fewer corners"};
+    return invalid("a ChArUco board has at most 1000 markers; choose fewer corners");
   return {};
 }
 
@@ -109,10 +108,9 @@ Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPa
 
 Result<void> BoardLook::check() const {
   for (const double share : {lamp, shadow, cover})
-    if (!(share >= 0) || !(share <= 0.98))
-      return Error{Errc::InvalidInput, "lamp, shadow and cover are shares from 0 to 0.98"};
+    if (!(share >= 0) || !(share <= 0.98)) return invalid("lamp, shadow and cover are shares from 0 to 0.98");
   if (!(highlight >= 0) || !(highlight <= 20))
-    return Error{Errc::InvalidInput, "a highlight is 0 to 20 times as bright as paper"};
+    return invalid("a highlight is 0 to 20 times as bright as paper");
   return {};
 }
 

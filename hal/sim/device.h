@@ -6,7 +6,6 @@
 // Thread: making: main; cameras: capture; the rest as hal/device.h says.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>

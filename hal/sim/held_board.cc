@@ -3,7 +3,6 @@
 #include "hal/sim/held_board.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "hal/sim/base/noise.h"
@@ -57,19 +56,6 @@ void blur_row(const float* from, float* to, int count, std::size_t stride, std::
                                        from[std::size_t(std::min(i + k, count - 1)) * stride]);
     to[std::size_t(i) * stride] = sum;
   }
-}
-
-std::vector<float> bell(double deviation_px) {
-  const int reach = std::max(1, int(std::ceil(3 * deviation_px)));
-  std::vector<float> weight;
-  double total = 0;
-  for (int k = 0; k <= reach; ++k) {
-    weight.push_back(float(deviation_px < 0.05 ? (k == 0 ? 1 : 0)
-                                               : std::exp(-0.5 * k * k / (deviation_px * deviation_px))));
-    total += (k == 0 ? 1 : 2) * double(weight.back());
-  }
-  for (float& w : weight) w = float(double(w) / total);
-  return weight;
 }
 
 }  // namespace
@@ -167,13 +153,12 @@ void HeldBoard::prepare(const SimView& view, Eye& eye) {
   const std::size_t count = index_of(view.width_px, 0, view.height_px);
   eye.plane_x.resize(count);
   eye.plane_y.resize(count);
-  pool_.for_each_band(view.height_px, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < view.width_px; ++x) {
-        const Vec3 ray = view.view_from_world * view.ray(x, y);
-        eye.plane_x[index_of(view.width_px, x, y)] = float(ray.x / ray.z);
-        eye.plane_y[index_of(view.width_px, x, y)] = float(ray.y / ray.z);
-      }
+  pool_.for_each(view.height_px, kBands, [&](int y) {
+    for (int x = 0; x < view.width_px; ++x) {
+      const Vec3 ray = view.view_from_world * view.ray(x, y);
+      eye.plane_x[index_of(view.width_px, x, y)] = float(ray.x / ray.z);
+      eye.plane_y[index_of(view.width_px, x, y)] = float(ray.y / ray.z);
+    }
   });
 }
 
@@ -186,38 +171,40 @@ Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const Boa
     for (int y = shot.top() + begin; y < shot.top() + end; ++y)
       for (int x = shot.left(); x < shot.right(); ++x) light[index_of(width, x, y)] = shot.light(x, y);
   });
-  const std::vector<float> weight = bell(sensor_.defocus_px);
+  const double deviation_px = sensor_.defocus_px;
+  const int reach = std::max(1, int(std::ceil(3 * deviation_px)));
+  std::vector<float> weight;
+  double total = 0;
+  for (int k = 0; k <= reach; ++k) {
+    weight.push_back(float(deviation_px < 0.05 ? (k == 0 ? 1 : 0)
+                                               : std::exp(-0.5 * k * k / (deviation_px * deviation_px))));
+    total += (k == 0 ? 1 : 2) * double(weight.back());
+  }
+  for (float& w : weight) w = float(double(w) / total);
   std::vector<float> across(light.size());
-  pool_.for_each_band(height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      blur_row(&light[index_of(width, 0, y)], &across[index_of(width, 0, y)], width, 1, weight);
+  pool_.for_each(height, kBands, [&](int y) {
+    blur_row(&light[index_of(width, 0, y)], &across[index_of(width, 0, y)], width, 1, weight);
   });
-  pool_.for_each_band(width, kBands, [&](int begin, int end, int) {
-    for (int x = begin; x < end; ++x)
-      blur_row(&across[std::size_t(x)], &light[std::size_t(x)], height, std::size_t(width), weight);
+  pool_.for_each(width, kBands, [&](int x) {
+    blur_row(&across[std::size_t(x)], &light[std::size_t(x)], height, std::size_t(width), weight);
   });
   return develop(light, eye, noise_seed);
 }
 
 Picture HeldBoard::develop(const std::vector<float>& light, const Eye& eye, std::uint64_t noise_seed) {
-  Picture out;
-  out.width_px = eye.view.width_px;
-  out.height_px = eye.view.height_px;
-  out.format = PixelFormat::Grey8;
-  out.bytes.resize(light.size());
+  Picture out{std::vector<std::byte>(light.size()), eye.view.width_px, eye.view.height_px,
+              PixelFormat::Grey8};
   const auto well = float(sensor_.full_well_electrons);
   const auto read = float(sensor_.read_noise_electrons * sensor_.read_noise_electrons);
   const auto exposure = float(sensor_.exposure), noise = float(sensor_.noise);
-  pool_.for_each_band(out.height_px, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      // Stirred: neighbouring seeds give one sequence, shifted by one.
-      Random random(Random(noise_seed * 65536 + std::uint64_t(y)).next());
-      for (std::size_t i = index_of(out.width_px, 0, y); i < index_of(out.width_px, 0, y + 1); ++i) {
-        const float electrons = light[i] * exposure * well;
-        const float level =
-            (electrons + noise * std::sqrt(electrons + read) * normal_[random.next() % kNormals]) / well;
-        out.bytes[i] = std::byte{tone_[std::size_t(std::clamp(int(level * kTones), 0, kTones - 1))]};
-      }
+  pool_.for_each(out.height_px, kBands, [&](int y) {
+    // Stirred: neighbouring seeds give one sequence, shifted by one.
+    Random random(Random(noise_seed * 65536 + std::uint64_t(y)).next());
+    for (std::size_t i = index_of(out.width_px, 0, y); i < index_of(out.width_px, 0, y + 1); ++i) {
+      const float electrons = light[i] * exposure * well;
+      const float level =
+          (electrons + noise * std::sqrt(electrons + read) * normal_[random.next() % kNormals]) / well;
+      out.bytes[i] = std::byte{tone_[std::size_t(std::clamp(int(level * kTones), 0, kTones - 1))]};
     }
   });
   return out;

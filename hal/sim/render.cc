@@ -4,12 +4,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <random>
 #include <span>
-#include <string>
 #include <system_error>
 
 #include "hal/base/whole_file.h"
@@ -39,16 +37,14 @@ void append(std::string& out, std::span<const T> values) {
   out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
-// The board turned as a head in the same pose would be, its middle on the left camera's axis.
-BoardPose board_pose(const SimRig& rig, const BoardPattern& b, const HeadPose& at) {
-  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
-  return with_middle_at(rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0},
-                        rotation(radians(at.pitch_deg), radians(at.yaw_deg), radians(at.roll_deg)), b);
-}
-
 Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
                            ThreadPool& pool) {
-  std::vector<BoardPose> poses{board_pose(rig, o.board, o.pose)};
+  // Turned as a head in the same pose would be, its middle on the left camera's axis.
+  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
+  const HeadPose& at = o.pose;
+  std::vector<BoardPose> poses{
+      with_middle_at(rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0},
+                     rotation(radians(at.pitch_deg), radians(at.yaw_deg), radians(at.roll_deg)), o.board)};
   if (!o.board_in_this_pose) {
     RELIEVO_TRY_ASSIGN(poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
   }
@@ -71,20 +67,6 @@ Result<void> write_head(const Scene& scene, const SimulationOptions& o, const Si
   return write_mesh(folder / "head.ply", scene.solid_mesh());
 }
 
-Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
-                         ThreadPool& pool) {
-  const auto scene = make_head_scene(make_head(traits_of(o.seed), pool), o.pose, pool);
-  return write_head(*scene, o, rig, o.seed * 1000ULL, folder, pool);
-}
-
-// Between two pairs somebody's lips, jaw and lids move a little.
-void let_drift(Expression& face, double drift, std::mt19937& random) {
-  std::uniform_real_distribution<double> upto_one(0, 1);
-  face.smile = 0.08 * drift * upto_one(random);
-  face.jaw_mm = 0.8 * drift * upto_one(random);
-  face.lids_open = 1 - 0.15 * drift * upto_one(random);
-}
-
 Result<void> render_visit(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
                           ThreadPool& pool) {
   constexpr std::array<std::array<double, 2>, 6> kTurnsDeg{
@@ -95,7 +77,11 @@ Result<void> render_visit(const SimulationOptions& o, const SimRig& rig, const s
   std::mt19937 random(o.seed);
   for (std::size_t k = 0; k < kTurnsDeg.size(); ++k) {
     if (k > 0 && o.drift > 0 && o.alive == Alive::Person) {
-      let_drift(traits.expression, o.drift, random);
+      // Between two pairs somebody's lips, jaw and lids move a little.
+      std::uniform_real_distribution<double> upto_one(0, 1);
+      traits.expression.smile = 0.08 * o.drift * upto_one(random);
+      traits.expression.jaw_mm = 0.8 * o.drift * upto_one(random);
+      traits.expression.lids_open = 1 - 0.15 * o.drift * upto_one(random);
       head = make_head(traits, pool);
     }
     HeadPose pose = turned_about_neck(o.pose, kTurnsDeg[k][0]);
@@ -119,15 +105,14 @@ Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool) {
   truth.depth_mm.assign(count, std::numeric_limits<float>::quiet_NaN());
   truth.flags.assign(count, 0);
   const Vec3 eye = rig.left.centre();
-  pool.for_each_band(truth.height_px, 60, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < truth.width_px; ++x) {
-        const Vec3 ray = rig.left.ray(x, y);
-        SolidPoint s;
-        if (!scene.solid(eye, ray, s)) continue;
-        truth.depth_mm[truth.at(x, y)] = float(rig.left.depth_mm(s.point));
-        truth.flags[truth.at(x, y)] = flags_of(scene, rig, s, ray);
-      }
+  pool.for_each(truth.height_px, 60, [&](int y) {
+    for (int x = 0; x < truth.width_px; ++x) {
+      const Vec3 ray = rig.left.ray(x, y);
+      SolidPoint s;
+      if (!scene.solid(eye, ray, s)) continue;
+      truth.depth_mm[truth.at(x, y)] = float(rig.left.depth_mm(s.point));
+      truth.flags[truth.at(x, y)] = flags_of(scene, rig, s, ray);
+    }
   });
   return truth;
 }
@@ -170,14 +155,12 @@ Result<void> SimulationOptions::check() const {
   RELIEVO_TRY(rig.check());
   RELIEVO_TRY(board.check());
   RELIEVO_TRY(board_look.check());
-  if (board_poses < 1 || board_poses > 200)
-    return Error{Errc::InvalidInput, "choose between 1 and 200 board poses"};
+  if (board_poses < 1 || board_poses > 200) return invalid("choose between 1 and 200 board poses");
   if (!(std::abs(pose.yaw_deg) <= 60) || !(std::abs(pose.pitch_deg) <= 45) ||
       !(std::abs(pose.roll_deg) <= 60))
-    return Error{Errc::InvalidInput,
-                 "a simulated head turns up to 60, nods up to 45 and leans up to 60 degrees"};
+    return invalid("a simulated head turns up to 60, nods up to 45 and leans up to 60 degrees");
   if (!(pose.distance_mm >= 250) || !(pose.distance_mm <= 2000))
-    return Error{Errc::InvalidInput, "a simulated scene stands between 250 and 2000 mm away"};
+    return invalid("a simulated scene stands between 250 and 2000 mm away");
   return {};
 }
 
@@ -201,7 +184,8 @@ Result<void> render_to_folder(const SimulationOptions& options, const std::files
     case SceneKind::Visit: return render_visit(options, rig, folder, pool);
     case SceneKind::Head: break;
   }
-  return render_head(options, rig, folder, pool);
+  const auto scene = make_head_scene(make_head(traits_of(options.seed), pool), options.pose, pool);
+  return write_head(*scene, options, rig, options.seed * 1000ULL, folder, pool);
 }
 
 }  // namespace relievo::hal::sim

@@ -76,15 +76,6 @@ std::int16_t Mixer::next_of_speech() {
   }
 }
 
-void Mixer::begin_sound() {
-  const std::uint64_t asked = asked_.load();
-  if (asked == sounding_) return;
-  sounding_ = asked;
-  pitch_ = float(asked >> 8U & 0xFFFFU) / 100;
-  tone_ = sound_at_ = 0;
-  phase_ = 0;
-}
-
 float Mixer::next_of_sound() {
   if (sounding_ == 0) return 0;
   const Tones& tones = kTones[(sounding_ & 0xFFU) % kSounds];
@@ -100,7 +91,12 @@ float Mixer::next_of_sound() {
 }
 
 void Mixer::fill(std::span<std::int16_t> samples) {
-  begin_sound();
+  if (const std::uint64_t asked = asked_.load(); asked != sounding_) {
+    sounding_ = asked;
+    pitch_ = float(asked >> 8U & 0xFFFFU) / 100;
+    tone_ = sound_at_ = 0;
+    phase_ = 0;
+  }
   for (std::int16_t& sample : samples) {
     const float value = float(next_of_speech()) + next_of_sound();
     sample = std::int16_t(std::clamp(value, -32767.0F, 32767.0F));

@@ -55,7 +55,6 @@ class Mixer {
   static constexpr std::size_t kPieces = 16;  // 0.4 s
   bool add(Number text, std::span<const std::int16_t> samples, bool last);
   std::int16_t next_of_speech();
-  void begin_sound();
   float next_of_sound();
 
   std::array<Piece, kPieces> pieces_{};

@@ -66,13 +66,9 @@ class SdlSpeaker final : public Speaker {
   }
   void say(const Speech& speech) override {
     if (speech.text.empty()) return hush();
-    Wanted wanted;
-    wanted.number = mixer_.begin();
-    wanted.text = speech.text;
-    wanted.language = speech.language;
-    wanted.volume_percent = speech.volume_percent;
-    wanted.speed_percent = speech.speed_percent;
-    wanted_.put(std::move(wanted));  // the newest counts
+    // The newest counts.
+    wanted_.put({mixer_.begin(), WipedText(speech.text), std::string(speech.language), speech.volume_percent,
+                 speech.speed_percent});
   }
   void hush() override { mixer_.cut(); }
   bool is_speaking() const override { return !mute_ && mixer_.is_speaking(); }

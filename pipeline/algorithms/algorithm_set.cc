@@ -24,8 +24,7 @@ std::string joined(const std::vector<std::string>& names) {
 Result<void> check_value(const OptionDescription& option, const std::string& value) {
   // Nothing else comes back as it was from to_text().
   if (trimmed(value) != value || std::ranges::any_of(value, [](unsigned char c) { return c < ' '; }))
-    return Error{Errc::InvalidInput,
-                 "takes no line ends or other control characters, and no blanks at its ends"}
+    return invalid("takes no line ends or other control characters, and no blanks at its ends")
         .at(option.key);
   if (option.text) return {};
   if (!option.names.empty()) {
@@ -38,9 +37,9 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
       }
     std::ranges::sort(parts);
     if (std::ranges::adjacent_find(parts) != parts.end())
-      return Error{Errc::InvalidInput, "names an algorithm twice"}.at(option.key + " = " + value);
+      return invalid("names an algorithm twice").at(option.key + " = " + value);
     if (parts.size() > 1 && std::ranges::find(parts, "none") != parts.end())
-      return Error{Errc::InvalidInput, "names none and an algorithm"}.at(option.key + " = " + value);
+      return invalid("names none and an algorithm").at(option.key + " = " + value);
     return {};
   }
   const std::optional<double> number = number_in(value);
@@ -59,9 +58,8 @@ Result<void> check_neighbours(const AlgorithmSet& set) {
     return false;
   };
   if ((on_lattice("selector") && on_lattice("matcher")) || !on_lattice("mesher")) return {};
-  return Error{
-      Errc::InvalidInput,
-      "this mesher joins neighbours of a lattice and these matches are scattered: choose mesher=delaunay, or selector=dense or grid-points and a matcher other than file-matches"}
+  return invalid(
+             "this mesher joins neighbours of a lattice and these matches are scattered: choose mesher=delaunay, or selector=dense or grid-points and a matcher other than file-matches")
       .at("selector=" + set.get("selector") + " matcher=" + set.get("matcher") +
           " mesher=" + set.get("mesher"));
 }
@@ -120,34 +118,25 @@ std::string AlgorithmSet::get(std::string_view key) const {
   return {};
 }
 
-namespace {
-
-// What is stored may be older than a name.
-std::string_view name_today(std::string_view key, std::string_view value) {
-  if (key == "selector" && value == "grid") return "grid-points";
-  if (key == "selector" && value == "file") return "file-points";
-  return value;
-}
-
-Result<void> take_line(AlgorithmSet& set, std::string_view line) {
-  const std::size_t sign = line.find('=');
-  if (sign == std::string_view::npos)
-    return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
-  const std::string_view key = trimmed(line.substr(0, sign));
-  if (key == "grid-points.max_points") return {};  // older stores have it
-  return set.set(key, name_today(key, trimmed(line.substr(sign + 1))));
-}
-
-}  // namespace
-
 Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text, std::vector<std::string>* unknown) {
   AlgorithmSet set;
+  const auto take = [&set](std::string_view line) -> Result<void> {
+    const std::size_t sign = line.find('=');
+    if (sign == std::string_view::npos)
+      return invalid("is no choice of an algorithm: key = value is expected").at(line);
+    const std::string_view key = trimmed(line.substr(0, sign)), value = trimmed(line.substr(sign + 1));
+    // What is stored may be older than a name.
+    if (key == "grid-points.max_points") return {};
+    if (key == "selector" && (value == "grid" || value == "file"))
+      return set.set(key, std::string(value) + "-points");
+    return set.set(key, value);
+  };
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty()) continue;
-    const Result<void> taken = take_line(set, line);
+    const Result<void> taken = take(line);
     if (taken) continue;
     if (unknown == nullptr) return taken.error();
     unknown->emplace_back(line);

@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
-#include "pipeline/base/options.h"
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/match/coarse/sgm_matcher.h"
 #include "pipeline/match/constraints/constraints.h"

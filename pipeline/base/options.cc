@@ -22,8 +22,8 @@ std::string OptionRange::possible() const {
 }
 
 Error out_of_range(const std::string& option, const std::string& value, const OptionRange& range) {
-  return Error{Errc::InvalidInput, "not one of the values in brackets"}.at(option + " = " + value + " (" +
-                                                                           range.possible() + ")");
+  return invalid("not one of the values in brackets")
+      .at(option + " = " + value + " (" + range.possible() + ")");
 }
 
 std::vector<std::string> split_names(std::string_view text) {

@@ -26,19 +26,17 @@ constexpr double kLooseShare = 0.15;
 Result<void> check_input(const CalibratorInput& input) {
   RELIEVO_TRY(input.pattern.check());
   if (input.width_px < 16 || input.height_px < 16 || input.width_px > 8192 || input.height_px > 8192)
-    return Error{Errc::InvalidInput, "pictures must have 16 to 8192 pixels a side"};
-  if (input.views.size() > kMaxBoardPairs)
-    return Error{Errc::InvalidInput, "more than 500 pairs; a few dozen are enough"};
+    return invalid("pictures must have 16 to 8192 pixels a side");
+  if (input.views.size() > kMaxBoardPairs) return invalid("more than 500 pairs; a few dozen are enough");
   const auto corners = std::size_t(input.pattern.corners());
   for (const BoardView& view : input.views)
     for (const BoardCorners* board : {&view.left, &view.right}) {
       if (!board->empty() && board->size() != corners)
-        return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
-            view.name);
+        return invalid("a board with another number of corners than the pattern").at(view.name);
       if (!std::ranges::all_of(*board, [](const Vec2d& at) {
             return !seen(at) || (std::abs(at.x) < 1e5 && std::abs(at.y) < 1e5);
           }))
-        return Error{Errc::InvalidInput, "a corner far outside the picture"}.at(view.name);
+        return invalid("a corner far outside the picture").at(view.name);
     }
   return {};
 }
@@ -120,16 +118,6 @@ bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& vi
   return true;
 }
 
-void name_views(const CalibratorInput& input, CalibrationQuality& quality) {
-  for (const BoardView& view : input.views) {
-    ViewQuality& q = quality.views.emplace_back();
-    q.name = view.name;
-    if (view.left.empty() && view.right.empty()) q.reason = "no board found in left and right";
-    else if (view.left.empty()) q.reason = "no board found in left";
-    else if (view.right.empty()) q.reason = "no board found in right";
-  }
-}
-
 void name_left_out(const CalibratorInput& input, const Selection& selection, std::span<const int> pairs,
                    CalibrationQuality& quality) {
   for (const int pair : pairs) {
@@ -168,15 +156,6 @@ void expect_baseline(const CalibratorInput& input, const StereoCalibration& foun
   quality.expected_as_in_use = true;
 }
 
-StereoCalibration calibration_of(const StereoFit& fit) {
-  StereoCalibration calibration;
-  calibration.left = fit.problem.camera[0];
-  calibration.right = fit.problem.camera[1];
-  calibration.right_from_left = bundle::transform_of(fit.problem.right_from_left);
-  calibration.rms_px = fit.rms_px();
-  return calibration;
-}
-
 std::vector<FittedView> fitted_views(std::size_t count, const StereoFit& fit) {
   std::vector<FittedView> views(count);
   const bundle::Problem& p = fit.problem;
@@ -203,10 +182,15 @@ Error poor_geometry(Literal what, std::size_t pairs) {
 Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   RELIEVO_TRY(check_input(given));
   CalibratorInput input = given;
-  for (BoardView& view : input.views)
-    if (!view.left.empty() && !view.right.empty()) pair_order(view.left, view.right, input.pattern);
   CalibratorOutput out;
-  name_views(input, out.quality);
+  for (BoardView& view : input.views) {
+    ViewQuality& q = out.quality.views.emplace_back();
+    q.name = view.name;
+    if (view.left.empty() && view.right.empty()) q.reason = "no board found in left and right";
+    else if (view.left.empty()) q.reason = "no board found in left";
+    else if (view.right.empty()) q.reason = "no board found in right";
+    else pair_order(view.left, view.right, input.pattern);
+  }
   std::vector<int> left = boards(input, false);
   std::vector<int> right = boards(input, true);
   const auto in_both = [&] {
@@ -234,7 +218,11 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   const CameraFits cameras{input, left_fit, right_fit};
   Selection selection;
   if (!select_views(cameras, pairs, selection)) return undetermined;
-  out.calibration = calibration_of(selection.fit);
+  const bundle::Problem& rig = selection.fit.problem;
+  out.calibration = {.left = rig.camera[0],
+                     .right = rig.camera[1],
+                     .right_from_left = bundle::transform_of(rig.right_from_left),
+                     .rms_px = selection.fit.rms_px()};
   const Vec3d stands = inverse(out.calibration.right_from_left).translation_mm;
   if (stands.x < 0 && -stands.x >= std::abs(stands.y))
     return poor_geometry("the left pictures come from the right camera; exchange the two", pairs.size());

@@ -26,13 +26,6 @@ double statistic_of(const EpipolarShift& shift, double expected_px) {
   return field.dot(solved<3>(usual, field));
 }
 
-DriftVerdict verdict_of(const DriftJudgement& judgement) {
-  // What stands out of a vague measurement stands out.
-  if (judgement.statistic > kDriftStatistic)
-    return judgement.residual_px > kRefusedPx ? DriftVerdict::Refuse : DriftVerdict::Warn;
-  return judgement.sigma_px > kUselessSigmaPx ? DriftVerdict::Unknown : DriftVerdict::Ok;
-}
-
 }  // namespace
 
 DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& calibration) {
@@ -47,7 +40,10 @@ DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& 
   judgement.slope_y = shift.slope_y;
   judgement.statistic = statistic_of(shift, judgement.expected_px);
   if (!std::isfinite(judgement.statistic)) return DriftJudgement{.expected_px = judgement.expected_px};
-  judgement.verdict = verdict_of(judgement);
+  // What stands out of a vague measurement stands out.
+  if (judgement.statistic > kDriftStatistic)
+    judgement.verdict = judgement.residual_px > kRefusedPx ? DriftVerdict::Refuse : DriftVerdict::Warn;
+  else judgement.verdict = judgement.sigma_px > kUselessSigmaPx ? DriftVerdict::Unknown : DriftVerdict::Ok;
   return judgement;
 }
 

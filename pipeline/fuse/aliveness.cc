@@ -34,11 +34,6 @@ constexpr double kLeastFollowing = 0.1, kLeastContrast = 0.1;
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-Vec3d direction(double across_deg, double up_deg) {
-  const double a = radians(across_deg), u = radians(up_deg);
-  return {std::sin(a) * std::cos(u), std::sin(u), std::cos(a) * std::cos(u)};
-}
-
 // Lightness on an eye's ball; negative where the camera does not see it well.
 class BallPicture {
  public:
@@ -48,7 +43,8 @@ class BallPicture {
     const Vec3d eye = apply(inverse(view_from_face), Vec3d{});
     for (int r = 0; r < kRows; ++r)
       for (int c = 0; c < kColumns; ++c) {
-        const Vec3d out = direction(across_deg(c), up_deg(r));
+        const double a = radians(across_deg(c)), u = radians(up_deg(r));
+        const Vec3d out{std::sin(a) * std::cos(u), std::sin(u), std::cos(a) * std::cos(u)};
         const Vec3d at = plus(middle, times(out, kBallMm));
         const Vec3d to_eye = minus(eye, at);
         float& light = light_[index(c, r)];

@@ -47,26 +47,6 @@ std::vector<Loop> loops_of(std::span<const Vec3f> vertices, std::span<const Bord
   return loops;
 }
 
-// A cubic curve's places between two ends that leaves them as the surface does (PN triangles: Vlachos and
-// others 2001).
-class Mouth {
- public:
-  Mouth(const Vec3f& from, const Vec3f& from_normal, const Vec3f& to, const Vec3f& to_normal)
-      : from_(from), to_(to) {
-    const Vec3f way = minus(to, from), n = unit(from_normal), m = unit(to_normal);
-    near_from_ = along(along(from, 1.0F / 3, way), -dot(way, n) / 3, n);
-    near_to_ = along(along(to, -1.0F / 3, way), dot(way, m) / 3, m);
-  }
-  Vec3f at(float u) const {
-    const float v = 1 - u;
-    return along(along(along(times(from_, v * v * v), 3 * v * v * u, near_from_), 3 * v * u * u, near_to_),
-                 u * u * u, to_);
-  }
-
- private:
-  Vec3f from_, to_, near_from_{}, near_to_{};
-};
-
 class Filler {
  public:
   Filler(std::pmr::vector<Vec3f>& vertices, std::span<const Vec3f> normals,
@@ -173,11 +153,18 @@ class Filler {
     const std::uint32_t from = stretch.back(), to = stretch.front();
     const float step = shore / float(stretch.size() - 1);
     const int steps = std::max(1, int(distance(vertices_[from], vertices_[to]) / step));
-    const Mouth mouth(vertices_[from], normals_[from], vertices_[to], normals_[to]);
+    // A cubic curve between two ends that leaves them as the surface does (PN triangles: Vlachos and others
+    // 2001).
+    const Vec3f a = vertices_[from], d = vertices_[to], way = minus(d, a);
+    const Vec3f n = unit(normals_[from]), m = unit(normals_[to]);
+    const Vec3f b = along(along(a, 1.0F / 3, way), -dot(way, n) / 3, n);
+    const Vec3f c = along(along(d, -1.0F / 3, way), dot(way, m) / 3, m);
     const std::size_t before = vertices_.size();
     for (int k = 1; k < steps; ++k) {
       stretch.push_back(std::uint32_t(vertices_.size()));
-      vertices_.push_back(mouth.at(float(k) / float(steps)));
+      const float u = float(k) / float(steps), v = 1 - u;
+      vertices_.push_back(
+          along(along(along(times(a, v * v * v), 3 * v * v * u, b), 3 * v * u * u, c), u * u * u, d));
       beside_.push_back(from);
       on_rim_.push_back(1);
     }

@@ -91,12 +91,7 @@ class Surface {
         triangles_(std::move(polygonised.triangles)),
         blend_(blend),
         zones_(zones),
-        context_(context),
-        scratch_(&context.scratch),
-        vertices_(scratch_),
-        started_(scratch_),
-        normals_(scratch_),
-        sure_(scratch_) {
+        context_(context) {
     // What closes holes comes to them: vectors that grow in an arena leave all they were before behind.
     const std::size_t most = vertices_mm_.size() + vertices_mm_.size() / 8;
     vertices_mm_.reserve(most);
@@ -114,9 +109,7 @@ class Surface {
 
   // What lies on no pose's surface is the master's own, or goes.
   void place(const OwnFace& own) {
-    context_.pool.for_each_band(int(vertices_.size()), kBands, [&](int begin, int end, int) {
-      for (int v = begin; v < end; ++v) place(std::size_t(v), own);
-    });
+    context_.pool.for_each(int(vertices_.size()), kBands, [&](int v) { place(std::size_t(v), own); });
     std::erase_if(triangles_, [&](const Triangle& t) {
       return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices_[v].kept == 0; });
     });
@@ -260,11 +253,11 @@ class Surface {
   const PoseBlend& blend_;
   const HeadZones& zones_;
   StageContext& context_;
-  std::pmr::memory_resource* scratch_;
-  std::pmr::vector<Vertex> vertices_;
-  std::pmr::vector<Vec3f> started_;  // where the field had them
-  std::pmr::vector<Vec3f> normals_;
-  std::pmr::vector<std::uint8_t> sure_;
+  std::pmr::memory_resource* scratch_{&context_.scratch};
+  std::pmr::vector<Vertex> vertices_{scratch_};
+  std::pmr::vector<Vec3f> started_{scratch_};  // where the field had them
+  std::pmr::vector<Vec3f> normals_{scratch_};
+  std::pmr::vector<std::uint8_t> sure_{scratch_};
   std::size_t placed_ = 0;  // vertices before those that close holes
 };
 

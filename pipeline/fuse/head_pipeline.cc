@@ -7,7 +7,6 @@
 #include "pipeline/fuse/head_texturer.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/model_quality.h"
-#include "pipeline/model/vector3.h"
 #include "pipeline/texture/texture_sharpness.h"
 
 namespace relievo::pipeline {
@@ -19,7 +18,7 @@ constexpr int kMostAtlasPx = 4096;
 
 Result<void> check_count(std::span<const HeadPose> poses) {
   if (poses.empty() || poses.size() > std::size_t(kMostPoses))
-    return Error{Errc::InvalidInput, "one to seven pairs make a head"};
+    return invalid("one to seven pairs make a head");
   return {};
 }
 
@@ -38,17 +37,16 @@ std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Regis
       if (!registration.poses[k].joined) continue;
       const HeadPose& pose = poses[k];
       const RigidTransform back = inverse(registration.poses[k].first_from_pose);
-      HeadView view;
-      view.rgb = right ? pose.right_rgb : pose.left_rgb;
-      view.width_px = pose.width_px;
-      view.height_px = pose.height_px;
-      view.focal_px = pose.focal_px;
-      view.centre_px = right ? pose.right_centre_px : pose.centre_px;
-      view.view_from_head = product({pose.rectified_from_camera, {}}, back);
-      if (right) view.view_from_head.translation_mm.x -= pose.baseline_mm;
-      view.master = k == 0;
-      view.right = right;
-      views.push_back(view);
+      RigidTransform view_from_head = product({pose.rectified_from_camera, {}}, back);
+      if (right) view_from_head.translation_mm.x -= pose.baseline_mm;
+      views.push_back({.rgb = right ? pose.right_rgb : pose.left_rgb,
+                       .width_px = pose.width_px,
+                       .height_px = pose.height_px,
+                       .focal_px = pose.focal_px,
+                       .centre_px = right ? pose.right_centre_px : pose.centre_px,
+                       .view_from_head = view_from_head,
+                       .master = k == 0,
+                       .right = right});
     }
   return views;
 }

@@ -46,19 +46,6 @@ std::pmr::vector<float> steps_from_edge(const HeadPose& pose, std::pmr::memory_r
   return steps;
 }
 
-// 1 where all cells around a node carry surface.
-std::pmr::vector<float> whole_nodes(const PointLattice& lattice, std::pmr::memory_resource* memory) {
-  std::pmr::vector<float> whole(lattice.size(), 0.0F, memory);
-  for (int r = 1; r + 1 < lattice.rows; ++r)
-    for (int c = 1; c + 1 < lattice.columns; ++c) {
-      bool all = true;
-      for (const auto& [dc, dr] : {std::pair{0, 0}, {-1, 0}, {0, -1}, {-1, -1}})
-        all = all && triangle_count(lattice.cells[lattice.index(c + dc, r + dr)]) == 2;
-      whole[lattice.index(c, r)] = all ? 1.0F : 0.0F;
-    }
-  return whole;
-}
-
 // So that 0 0 0 says where it ends.
 void keep_photograph(const RectifiedView& view, std::pmr::vector<std::uint8_t>& rgb) {
   rgb.assign(view.rgb.begin(), view.rgb.end());
@@ -103,9 +90,15 @@ Result<HeadPose> make_head_pose(const PointCloud& cloud, const RectifiedPair& pa
   std::pmr::vector<float> sigmas(&context.scratch);
   for (const CloudPoint& p : cloud.points) sigmas.push_back(p.sigma_mm);
   const float most_sigma_mm = std::max(kMostSigmaMm, kMostOfUsual * float(median(sigmas)));
-  std::pmr::vector<float> whole = whole_nodes(lattice, &context.scratch);
-  for (std::size_t k = 0; k < whole.size(); ++k)
-    if (lattice.sigma_mm[k] > most_sigma_mm) whole[k] = 0;
+  // 1 where all cells around a node carry surface and it is not too unsure.
+  std::pmr::vector<float> whole(lattice.size(), 0.0F, &context.scratch);
+  for (int r = 1; r + 1 < lattice.rows; ++r)
+    for (int c = 1; c + 1 < lattice.columns; ++c) {
+      bool all = !(lattice.sigma_mm[lattice.index(c, r)] > most_sigma_mm);
+      for (const auto& [dc, dr] : {std::pair{0, 0}, {-1, 0}, {0, -1}, {-1, -1}})
+        all = all && triangle_count(lattice.cells[lattice.index(c + dc, r + dr)]) == 2;
+      whole[lattice.index(c, r)] = all ? 1.0F : 0.0F;
+    }
   // A triangle's normal is noise over a cell's width: five nodes' mean has a fifth of it.
   std::pmr::vector<Vec3f> raw(&context.scratch);
   raw.reserve(pose.nodes.size());

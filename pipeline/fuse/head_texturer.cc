@@ -34,25 +34,11 @@ constexpr std::size_t kMostViews = 2 * kMostPoses;
 // By how much the best view wins: the twelfth power of a view's say to the best one's. Below kLeastShare it
 // is less than kNothing.
 constexpr float kNothing = 0.01F, kLeastShare = 0.68F;
-float winning(float share) {
-  const float third = share * share * share;
-  return third * third * third * third;
-}
 
 class Texturing {
  public:
   Texturing(const FaceMesh& mesh, std::size_t closing, std::span<const HeadView> views, StageContext& context)
-      : mesh_(mesh),
-        closing_(closing),
-        views_(views),
-        context_(context),
-        vertices_(mesh.vertices_mm.size()),
-        say_(vertices_ * views.size(), 0.0F, &context.scratch),
-        level_(vertices_ * views.size(), VertexColour{}, &context.scratch),
-        known_(vertices_, 0, &context.scratch),
-        colours_(vertices_, VertexColour{}, &context.scratch),
-        sides_(&context.scratch),
-        atlas_(&context.output) {}
+      : mesh_(mesh), closing_(closing), views_(views), context_(context) {}
 
   Result<TextureAtlas> run(int max_atlas_px) {
     look_from_all();
@@ -64,7 +50,7 @@ class Texturing {
     lay_out(max_atlas_px);
     shade();
     if (context_.stop()) return stopped();
-    for_each_vertex([&](std::size_t v) {
+    context_.pool.for_each<std::size_t>(int(vertices_), kBands, [&](std::size_t v) {
       if (known_[v] != 0) colours_[v] = blend_at(v);
     });
     fill_colours(mesh_, known_, colours_, context_);
@@ -115,7 +101,7 @@ class Texturing {
   void for_each_view(Work&& work) const {
     for (std::size_t first = 0; first < views_.size(); first += views_at_once()) {
       const int count = int(std::min(views_at_once(), views_.size() - first));
-      context_.pool.for_each_band(count, count, [&](int, int, int room) {
+      context_.pool.for_each(count, count, [&](int room) {
         if (!context_.stop()) work(first + std::size_t(room), std::size_t(room));
       });
     }
@@ -202,18 +188,11 @@ class Texturing {
     return rgb;
   }
 
-  template <typename Work>
-  void for_each_vertex(Work&& work) const {
-    context_.pool.for_each_band(int(vertices_), kBands, [&](int begin, int end, int) {
-      for (int v = begin; v < end; ++v) work(std::size_t(v));
-    });
-  }
-
   // Every photograph's slowly varying difference from the mean of all that see the same skin.
   void even_out() {
     std::pmr::vector<VertexColour> mean(vertices_, VertexColour{}, &context_.scratch);
     std::pmr::vector<float> weight(vertices_, 0.0F, &context_.scratch);
-    for_each_vertex([&](std::size_t v) {
+    context_.pool.for_each<std::size_t>(int(vertices_), kBands, [&](std::size_t v) {
       for (std::size_t i = 0; i < views_.size(); ++i) {
         if (say(v, i) <= 0) continue;
         const float w = say(v, i) * (views_[i].master ? kMasterLevel : 1);
@@ -329,7 +308,8 @@ class Texturing {
     Blend blend;
     float weight = 0;
     for (const std::size_t i : list) {
-      const float w = winning(std::max(say_of(i), 0.0F) / best);
+      const float share = std::max(say_of(i), 0.0F) / best, third = share * share * share;
+      const float w = third * third * third * third;
       if (w < kNothing) continue;
       const VertexColour rgb = read(i, pixel_of(i));
       for (std::size_t k = 0; k < 3; ++k) blend.rgb[k] += w * (rgb[k] + level_of(i, k));
@@ -362,13 +342,16 @@ class Texturing {
   std::size_t closing_;
   std::span<const HeadView> views_;
   StageContext& context_;
-  std::size_t vertices_;
-  std::pmr::vector<float> say_;           // a view and vertex: 0 where it is not seen
-  std::pmr::vector<VertexColour> level_;  // a view and vertex: what is added to the photograph
-  std::pmr::vector<std::uint8_t> known_;  // a vertex: 1 where any view sees it
-  std::pmr::vector<VertexColour> colours_;
-  SideCharts sides_;
-  TextureAtlas atlas_;
+  std::size_t vertices_{mesh_.vertices_mm.size()};
+  // A view and vertex: 0 where it is not seen.
+  std::pmr::vector<float> say_{vertices_ * views_.size(), 0.0F, &context_.scratch};
+  // A view and vertex: what is added to the photograph.
+  std::pmr::vector<VertexColour> level_{vertices_ * views_.size(), VertexColour{}, &context_.scratch};
+  // A vertex: 1 where any view sees it.
+  std::pmr::vector<std::uint8_t> known_{vertices_, 0, &context_.scratch};
+  std::pmr::vector<VertexColour> colours_{vertices_, VertexColour{}, &context_.scratch};
+  SideCharts sides_{&context_.scratch};
+  TextureAtlas atlas_{&context_.output};
 };
 
 }  // namespace
@@ -376,7 +359,7 @@ class Texturing {
 Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::size_t closing, std::span<const HeadView> views,
                                   int max_atlas_px, StageContext& context) {
   if (views.empty() || views.size() > kMostViews || mesh.triangles.empty())
-    return Error{Errc::InvalidInput, "no photograph, too many, or no surface"};
+    return invalid("no photograph, too many, or no surface");
   return Texturing(mesh, closing, views, context).run(max_atlas_px);
 }
 

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory_resource>
 #include <optional>
 #include <utility>
 

@@ -67,17 +67,15 @@ std::pmr::vector<FieldPoint> PoseBlend::points(float voxel_mm) const {
     const std::size_t first = all.size(), columns = std::size_t(pose.columns);
     const auto dense_mm = float(kDenseVoxels * pose.focal_px / pose.step_px) * voxel_mm;
     all.resize(first + pose.nodes.size());  // weight 0: does not count
-    context_.pool.for_each_band(int(pose.nodes.size()), kBands, [&](int from, int to, int) {
-      for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
-        if (pose.nodes[i].trust < kLeastTrust) continue;
-        if (pose.nodes[i].at_mm.z < dense_mm && (i % columns + i / columns) % 2 != 0) continue;
-        const Vec3f at = narrow(apply(placed, wide(pose.nodes[i].at_mm)));
-        if (!zones_.is_head(at) || zones_.is_eye(at)) continue;
-        const Vec3f normal = narrow(apply(placed.rotation, wide(pose.nodes[i].normal)));
-        const float trust = pose.nodes[i].trust * (k == 0 ? 1 : zones_.others_share(at));
-        if (!overruled(k, at, normal, pose.nodes[i].sigma_mm, trust))
-          all[first + i] = {at, normal, trust / squared(std::max(pose.nodes[i].sigma_mm, kLeastSigmaMm))};
-      }
+    context_.pool.for_each<std::size_t>(int(pose.nodes.size()), kBands, [&](std::size_t i) {
+      if (pose.nodes[i].trust < kLeastTrust) return;
+      if (pose.nodes[i].at_mm.z < dense_mm && (i % columns + i / columns) % 2 != 0) return;
+      const Vec3f at = narrow(apply(placed, wide(pose.nodes[i].at_mm)));
+      if (!zones_.is_head(at) || zones_.is_eye(at)) return;
+      const Vec3f normal = narrow(apply(placed.rotation, wide(pose.nodes[i].normal)));
+      const float trust = pose.nodes[i].trust * (k == 0 ? 1 : zones_.others_share(at));
+      if (!overruled(k, at, normal, pose.nodes[i].sigma_mm, trust))
+        all[first + i] = {at, normal, trust / squared(std::max(pose.nodes[i].sigma_mm, kLeastSigmaMm))};
     });
     all.erase(std::remove_if(all.begin() + std::ptrdiff_t(first), all.end(),
                              [](const FieldPoint& p) { return p.weight <= 0; }),

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -58,11 +57,7 @@ class Placer {
  public:
   Placer(std::span<HeadPose> poses, std::span<RegisteredPose> placed, PoseResiduals& residuals,
          StageContext& context)
-      : poses_(poses),
-        placed_(placed),
-        residuals_(residuals),
-        context_(context),
-        known_(poses.size(), 0, &context.scratch) {
+      : poses_(poses), placed_(placed), residuals_(residuals), context_(context) {
     known_[0] = 1;
     for (std::size_t p = 1; p < poses.size(); ++p)
       if (const auto& laid = poses[p].first_from_pose) {
@@ -249,7 +244,8 @@ class Placer {
   std::span<RegisteredPose> placed_;
   PoseResiduals& residuals_;
   StageContext& context_;
-  std::pmr::vector<std::uint8_t> known_;  // poses that others are laid onto
+  // Poses that others are laid onto.
+  std::pmr::vector<std::uint8_t> known_{poses_.size(), 0, &context_.scratch};
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -293,8 +292,7 @@ class JointSolver {
 
 Result<Registration> register_poses(std::span<HeadPose> poses, StageContext& context) {
   if (poses.empty() || !poses[0].has_head)
-    return Error{Errc::InvalidInput, "no head was found in the first pair: it must be the one from in front"}
-        .at("pair 1");
+    return invalid("no head was found in the first pair: it must be the one from in front").at("pair 1");
   Registration made(&context.output);
   made.poses.resize(poses.size());
   PoseResiduals residuals(poses, made.poses, context);

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fuse/pose_residuals.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/shared_arena.h"
-#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -182,14 +179,6 @@ void SkinPatches::take(std::span<const PatchMean> means) {
     if (!slides(m)) say_[between(m.patch, m.a, m.b)] = float(say(m, usually));
 }
 
-PoseResiduals::PoseResiduals(std::span<const HeadPose> poses, std::span<RegisteredPose> placed,
-                             StageContext& context)
-    : poses_(poses),
-      placed_(placed),
-      context_(context),
-      skin_(poses.size(), &context.scratch),
-      pivot_(apply(inverse(poses[0].head_from_camera), Vec3d{0, 20, -kHeadCentreMm})) {}
-
 void PoseResiduals::move(std::size_t pose, const Vec3d& rotation, const Vec3d& translation_mm) {
   RigidTransform& placed = placed_[pose].first_from_pose;
   placed = product(small_motion(rotation, translation_mm, pivot_), placed);
@@ -246,10 +235,9 @@ void measure_agreement(std::span<const HeadPose> poses, Registration& registrati
     map.mm.assign(std::size_t(map.columns) * std::size_t(map.rows), kNowhere);
   }
   SharedArena memory(context.scratch);
-  const auto measure = [&](int a) { measure_agreement_of(std::size_t(a), poses, registration, memory); };
-  // By one reference: more would be kept in the heap.
-  context.pool.for_each_band(int(poses.size()), int(poses.size()),
-                             [&measure](int, int, int a) { measure(a); });
+  context.pool.for_each<std::size_t>(int(poses.size()), int(poses.size()), [&](std::size_t a) {
+    measure_agreement_of(a, poses, registration, memory);
+  });
 }
 
 }  // namespace relievo::pipeline

@@ -108,7 +108,8 @@ class PoseResiduals {
   static constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's: less is a rim
 
   // All three outlive it. `placed` is what is solved for.
-  PoseResiduals(std::span<const HeadPose> poses, std::span<RegisteredPose> placed, StageContext& context);
+  PoseResiduals(std::span<const HeadPose> poses, std::span<RegisteredPose> placed, StageContext& context)
+      : poses_(poses), placed_(placed), context_(context) {}
 
   // Middle of the head, about which small motions turn.
   const Vec3d& pivot() const { return pivot_; }
@@ -125,7 +126,7 @@ class PoseResiduals {
   // threads.
   template <typename Work>
   void for_each_part(std::size_t parts, Work&& work) const {
-    context_.pool.for_each_band(int(parts), int(parts), [&](int, int, int i) { work(std::size_t(i)); });
+    context_.pool.for_each(int(parts), int(parts), [&](int i) { work(std::size_t(i)); });
   }
 
   // Places of a pose that say something of how the skull stands, in every `parts`-th row of those looked at:
@@ -176,9 +177,9 @@ class PoseResiduals {
   std::span<const HeadPose> poses_;
   std::span<RegisteredPose> placed_;
   StageContext& context_;
-  double usual_mm_ = 0;  // distance between the surfaces, in the step before
-  SkinPatches skin_;     // watched as soon as the poses lie on each other
-  Vec3d pivot_;
+  double usual_mm_ = 0;                                 // distance between the surfaces, in the step before
+  SkinPatches skin_{poses_.size(), &context_.scratch};  // watched as soon as the poses lie on each other
+  Vec3d pivot_ = apply(inverse(poses_[0].head_from_camera), Vec3d{0, 20, -kHeadCentreMm});
 };
 
 // Lays each pose onto those before it: from its own head frame, or, where that leads nowhere, from a head

@@ -64,8 +64,7 @@ class Bender {
         registration_(registration),
         limits_(limits),
         skull_stays_(skull_stays),
-        context_(context),
-        fixed_(poses.size(), 0, &context.scratch) {
+        context_(context) {
     fixed_[0] = 1;
     for (std::size_t k = 1; k < poses.size(); ++k) fixed_[k] = registration.poses[k].joined ? 0 : 1;
   }
@@ -111,12 +110,6 @@ class Bender {
     return sum;
   }
 
-  float skull_share(std::size_t k, std::size_t i) const {
-    const Vec3d at = apply(registration_.poses[k].first_from_pose, wide(poses_[k].nodes[i].at_mm));
-    const double z = apply(poses_[0].head_from_camera, at).z;
-    return float(kSkullSays * std::clamp((kSkullFromMm - z) / kSkullFadesMm, 0.0, 1.0));
-  }
-
   double overlap(std::size_t k) const {
     constexpr std::size_t kEvery = 37;
     double met = 0;
@@ -144,8 +137,12 @@ class Bender {
       if (pose.nodes[i].trust <= 0 || (r + c) % 2 != 0) return;
       const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
       const Gap g = gap(k, i);
+      if (g.weight <= 0 && !skull_stays_) return;
       if (g.weight <= 0) {
-        if (skull_stays_) field.weight[cell] += pose.nodes[i].trust * skull_share(k, i);
+        const Vec3d at = apply(registration_.poses[k].first_from_pose, wide(pose.nodes[i].at_mm));
+        const double z = apply(poses_[0].head_from_camera, at).z;
+        field.weight[cell] += pose.nodes[i].trust *
+                              float(kSkullSays * std::clamp((kSkullFromMm - z) / kSkullFadesMm, 0.0, 1.0));
         return;
       }
       const float w = pose.nodes[i].trust * std::min(1.0F, g.weight / kSureWeight);
@@ -222,7 +219,7 @@ class Bender {
   const HeadFuser& limits_;
   bool skull_stays_;
   StageContext& context_;
-  std::pmr::vector<std::uint8_t> fixed_;
+  std::pmr::vector<std::uint8_t> fixed_{poses_.size(), 0, &context_.scratch};
 };
 
 }  // namespace

@@ -32,15 +32,6 @@ bool is_face(const Relief& relief, const FaceBox& hit) {
   return hit.votes >= kSecondFaceVotes && width_mm > 90 && width_mm < 240;
 }
 
-int count_faces(const Relief& relief, const FaceHits& hits) {
-  int faces = std::min(hits.count, 1);
-  for (int i = 1; i < hits.count; ++i) {
-    const FaceBox& hit = hits.hit[std::size_t(i)];
-    if (hit.width_px > kSecondFaceShare * hits.hit[0].width_px && is_face(relief, hit)) ++faces;
-  }
-  return faces;
-}
-
 void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   std::size_t dark = 0, bright = 0, near = 0;
   for (const std::uint8_t v : relief.grey) dark += v <= 25 ? 1U : 0U;
@@ -58,28 +49,8 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   m.middle_near_share = double(near) / middle;
 }
 
-// To which side a head is turned far the outline tells: a cheek taken for a face mirrors itself, too, in a
-// plane that looks the other way, but lies on the right side of its outline. The yaw itself it tells of a
-// head that does not mirror itself. Something before a face takes the mirror image away, too, but leaves the
-// nose before the middle.
-void trust_outline(const Relief& relief, GateMeasures& m) {
-  const bool doubtful = m.head.known && m.head.asymmetry_mm >= kLimits.doubtful_mm;
-  if (!doubtful && std::abs(m.head.yaw_deg) <= kLimits.yaw_deg) return;
-  const double yaw = outline_yaw_deg(relief, m.head.tip_mm);
-  m.turned_far = doubtful && std::abs(yaw) > kLimits.yaw_deg;
-  m.head.yaw_deg = m.turned_far ? yaw : std::copysign(m.head.yaw_deg, yaw);
-}
-
 // What may be said of a head that no cascade has seen; what it looks like may be a collar's doing.
 bool is_of_place_or_pose(Advice advice) { return advice >= Advice::TooClose && advice <= Advice::Tilted; }
-
-// Where the head was a moment ago, as a face to look for.
-HeadHint expected(const Relief& relief, const GateHistory& history) {
-  const Vec3d& tip = history.last.tip_mm;
-  const Vec2d at = relief.pixel(tip);
-  const double width = kFaceWidthMm * relief.focal_px / tip.z;
-  return {{at.x, at.y - 0.08 * width}, width};
-}
 
 double apart(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -145,7 +116,11 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
   GateAnswer answer;
   GateMeasures& m = answer.measures;
   measure_picture(relief, kLimits.nearest_mm, m);
-  m.faces = count_faces(relief, hits);
+  m.faces = std::min(hits.count, 1);
+  for (int i = 1; i < hits.count; ++i) {
+    const FaceBox& hit = hits.hit[std::size_t(i)];
+    if (hit.width_px > kSecondFaceShare * hits.hit[0].width_px && is_face(relief, hit)) ++m.faces;
+  }
   if (hits.count > 0) {
     m.face = {hits.hit[0].centre_px, hits.hit[0].width_px};
     m.guessed_mm = kFaceWidthMm * relief.focal_px / m.face.width_px;
@@ -156,15 +131,29 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.tracked = head.known && head.relief_mm > kLimits.relief_mm;
     if (m.tracked) m.face = place, m.head = head, m.faces = std::max(m.faces, 1);
   };
-  if (!m.head.known && history.seen && now - history.last_by_cascade < kKeepsTrack)
-    look_at(expected(relief, history));
+  if (!m.head.known && history.seen && now - history.last_by_cascade < kKeepsTrack) {
+    // Where the head was a moment ago, as a face to look for.
+    const Vec3d& tip = history.last.tip_mm;
+    const Vec2d at = relief.pixel(tip);
+    const double width = kFaceWidthMm * relief.focal_px / tip.z;
+    look_at({{at.x, at.y - 0.08 * width}, width});
+  }
   const bool unseen = !m.head.known && m.faces == 0;
   if (unseen) {
     const Somebody somebody = find_somebody(relief, kLimits.farthest_mm);
     m.somebody_right = somebody.right, m.somebody_down = somebody.down;
     look_at(somebody.head);
   }
-  trust_outline(relief, m);
+  // To which side a head is turned far the outline tells: a cheek taken for a face mirrors itself, too, in a
+  // plane that looks the other way, but lies on the right side of its outline. The yaw itself it tells of a
+  // head that does not mirror itself. Something before a face takes the mirror image away, too, but leaves
+  // the nose before the middle.
+  const bool doubtful = m.head.known && m.head.asymmetry_mm >= kLimits.doubtful_mm;
+  if (doubtful || !(std::abs(m.head.yaw_deg) <= kLimits.yaw_deg)) {
+    const double yaw = outline_yaw_deg(relief, m.head.tip_mm);
+    m.turned_far = doubtful && std::abs(yaw) > kLimits.yaw_deg;
+    m.head.yaw_deg = m.turned_far ? yaw : std::copysign(m.head.yaw_deg, yaw);
+  }
   if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
   const SeenHead seen{now, m.head.known && !m.tracked, m.head.tip_mm, m.head.yaw_deg, m.face};
   if (m.head.known) {

@@ -3,7 +3,6 @@
 #include "pipeline/gate/judgement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace relievo::pipeline {

@@ -13,10 +13,6 @@
 namespace relievo::pipeline {
 namespace {
 
-double triangle_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  return 0.5 * length(cross(wide(minus(b, a)), wide(minus(c, a))));
-}
-
 // What a visitor looks at first, in the head's frame; mm. The mouth lies that far below the nose, however it
 // is opened.
 struct Feature {
@@ -29,15 +25,6 @@ struct Share {
   double value() const { return all > 0 ? measured / all : 0; }
 };
 
-double median_sigma(const FaceMesh& mesh, Arena& scratch) {
-  Arena::Mark mark(scratch);
-  std::pmr::vector<float> sigma(&scratch);
-  sigma.reserve(mesh.sigma_mm.size());
-  for (std::size_t k = 0; k < mesh.sigma_mm.size(); ++k)
-    if (mesh.measured[k] != 0) sigma.push_back(mesh.sigma_mm[k]);
-  return sigma.empty() ? 0 : median(sigma);
-}
-
 }  // namespace
 
 ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, StageContext& context) {
@@ -46,7 +33,7 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
   std::array<Share, std::size(kFeatures)> features;
   for (const auto& t : mesh.triangles) {
     const Vec3f &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
-    const double area = triangle_area(a, b, c);
+    const double area = 0.5 * length(cross(wide(minus(b, a)), wide(minus(c, a))));
     const double measured = all_three(mesh.measured, t) ? area : 0;
     const auto add = [&](Share& share) {
       share.all += area;
@@ -62,7 +49,12 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
   quality.measured_area_mm2 = face.measured;
   quality.coverage = face.value();
   for (const Share& feature : features) quality.coverage = std::min(quality.coverage, feature.value());
-  quality.median_sigma_mm = median_sigma(mesh, context.scratch);
+  Arena::Mark mark(context.scratch);
+  std::pmr::vector<float> sigma(&context.scratch);
+  sigma.reserve(mesh.sigma_mm.size());
+  for (std::size_t k = 0; k < mesh.sigma_mm.size(); ++k)
+    if (mesh.measured[k] != 0) sigma.push_back(mesh.sigma_mm[k]);
+  quality.median_sigma_mm = sigma.empty() ? 0 : median(sigma);
   quality.width_mm = frame.width_mm;
   quality.height_mm = frame.height_mm;
   quality.nose_relief_mm = frame.nose_relief_mm;

@@ -19,15 +19,7 @@ class Soup {
  public:
   Soup(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
        std::pmr::memory_resource* memory)
-      : vertices_(vertices),
-        triangles_(triangles),
-        around_(memory),
-        across_(3 * triangles.size(), kNone, memory),
-        alive_(triangles.size(), 1, memory),
-        mark_(triangles.size(), kNone, memory),
-        stack_(memory),
-        corners_(vertices.size(), 0, memory),
-        inner_(vertices.size(), 0, memory) {
+      : vertices_(vertices), triangles_(triangles), memory_(memory) {
     stack_.reserve(triangles.size());
     group_around(around_, vertices.size(), triangles);
     find_neighbours();
@@ -158,11 +150,14 @@ class Soup {
 
   std::span<const Vec3f> vertices_;
   std::span<const Triangle> triangles_;
-  Groups around_;                           // triangles around each vertex
-  std::pmr::vector<std::uint32_t> across_;  // the triangle behind each edge
-  std::pmr::vector<std::uint8_t> alive_;
-  std::pmr::vector<std::uint32_t> mark_, stack_;
-  std::pmr::vector<std::uint16_t> corners_, inner_;
+  std::pmr::memory_resource* memory_;
+  Groups around_{memory_};  // triangles around each vertex
+  // The triangle behind each edge.
+  std::pmr::vector<std::uint32_t> across_{3 * triangles_.size(), kNone, memory_};
+  std::pmr::vector<std::uint8_t> alive_{triangles_.size(), 1, memory_};
+  std::pmr::vector<std::uint32_t> mark_{triangles_.size(), kNone, memory_}, stack_{memory_};
+  std::pmr::vector<std::uint16_t> corners_{vertices_.size(), 0, memory_},
+      inner_{vertices_.size(), 0, memory_};
 };
 
 }  // namespace

@@ -67,7 +67,7 @@ inline Result<void> check_pixels(const RectifiedPair& pair) {
   const bool none = pair.width_px <= 0 || pair.height_px <= 0;
   for (const RectifiedView* view : {&pair.left, &pair.right})
     if (none || view->grey.size() != pair.pixels() || view->valid.size() != pair.pixels())
-      return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+      return invalid("the rectified pair has no pixels");
   return {};
 }
 

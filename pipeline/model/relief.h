@@ -6,7 +6,6 @@
 // the left camera, x along the baseline, z away from the rig, millimetres). Plain data, to be drawn as it is.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <new>
 
 #include "pipeline/model/photo_sampler.h"
-#include "pipeline/model/recognition_images.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/texture/chart/raster.h"
 
@@ -26,18 +25,6 @@ struct Seen {
   Vec2f at;  // pixels, or samples
   float z_mm;
 };
-
-std::pmr::vector<Seen> on_the_grid(const FaceMesh& mesh, const RigidTransform& head_from_camera,
-                                   std::pmr::memory_resource* memory) {
-  std::pmr::vector<Seen> points(memory);
-  points.reserve(mesh.vertices_mm.size());
-  for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(head_from_camera, wide(v));
-    points.push_back(
-        {{float((p.x - kFirstMm.x) / kPitchMm), float((kFirstMm.y - p.y) / kPitchMm)}, float(p.z)});
-  }
-  return points;
-}
 
 // Cosine between a triangle's normal and +z; negative from behind. Rows run downwards, hence the sign.
 float facing(const Seen& a, const Seen& b, const Seen& c) {
@@ -168,7 +155,13 @@ RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_c
   image.z_mm.assign(kSize, 0);
   image.sigma_mm.assign(kSize, 0);
   image.shows.assign(kSize, kNothingShown);
-  const auto points = on_the_grid(mesh, head_from_camera, scratch);
+  std::pmr::vector<Seen> points(scratch);
+  points.reserve(mesh.vertices_mm.size());
+  for (const Vec3f& v : mesh.vertices_mm) {
+    const Vec3d p = apply(head_from_camera, wide(v));
+    points.push_back(
+        {{float((p.x - kFirstMm.x) / kPitchMm), float((kFirstMm.y - p.y) / kPitchMm)}, float(p.z)});
+  }
   const auto sigma = [&](std::uint32_t v) { return mesh.sigma_mm.empty() ? 0.0F : mesh.sigma_mm[v]; };
   for (const auto& t : mesh.triangles) {
     const Seen& a = points[t[0]];
@@ -256,7 +249,7 @@ TexturedView draw_textured(const FaceMesh& mesh, const TextureAtlas& atlas, cons
 
 Result<RecognitionImages> make_recognition_images(const FaceModel& model, std::pmr::memory_resource& output,
                                                   std::pmr::memory_resource& scratch) {
-  if (model.mesh.triangles.empty()) return Error{Errc::InvalidInput, "there is no surface to draw"};
+  if (model.mesh.triangles.empty()) return invalid("there is no surface to draw");
   try {
     RecognitionImages images(&output);
     images.portrait = draw_portrait(model, &output, &scratch);

@@ -9,7 +9,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline::best_fit {
 namespace {

@@ -64,10 +64,10 @@ struct Neighbourhood {
   // judge(point, column, row), on the pool. False once stopped.
   template <typename Judge>
   bool for_each_point(StageContext& context, const Judge& judge) const {
-    context.pool.for_each_band(cells.rows(), kBands, [&](int begin, int end, int) {
-      for (int r = begin; r < end && !context.stop(); ++r)
-        for (int c = 0; c < cells.columns(); ++c)
-          for (const std::uint32_t i : cells.at(c, r)) judge(i, c, r);
+    context.pool.for_each(cells.rows(), kBands, [&](int r) {
+      if (context.stop()) return;
+      for (int c = 0; c < cells.columns(); ++c)
+        for (const std::uint32_t i : cells.at(c, r)) judge(i, c, r);
     });
     return !context.stop();
   }
@@ -166,13 +166,7 @@ struct RayFrame {
 class Filter {
  public:
   Filter(const PointCloud& cloud, const LocalOutlierFilter& options, Arena& scratch)
-      : points_(cloud.points),
-        options_(options),
-        near_(cloud, &scratch),
-        max_slope_(float(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
-        kept_(cloud.points.size(), std::uint8_t{0}, &scratch),
-        reached_(&scratch),
-        stack_(&scratch) {}
+      : cloud_(cloud), options_(options), scratch_(&scratch) {}
 
   // Points without a cell were not finite; they are not kept.
   bool judge(StageContext& context) {
@@ -297,12 +291,14 @@ class Filter {
     }
   }
 
-  std::span<const CloudPoint> points_;
+  const PointCloud& cloud_;
   const LocalOutlierFilter& options_;
-  Neighbourhood near_;
-  float max_slope_;
-  std::pmr::vector<std::uint8_t> kept_, reached_;
-  std::pmr::vector<std::uint32_t> stack_;
+  std::pmr::memory_resource* scratch_;
+  std::span<const CloudPoint> points_ = cloud_.points;
+  Neighbourhood near_{cloud_, scratch_};
+  float max_slope_{float(std::tan(options_.max_incidence_deg * std::numbers::pi / 180))};
+  std::pmr::vector<std::uint8_t> kept_{points_.size(), std::uint8_t{0}, scratch_}, reached_{scratch_};
+  std::pmr::vector<std::uint32_t> stack_{scratch_};
 };
 
 }  // namespace

@@ -37,17 +37,6 @@ Vector3d rectified(const RectifiedPair& pair, const Vec3f& at) {
   return {p.x, p.y, p.z};
 }
 
-Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
-  Samples all(memory);
-  all.reserve(mesh.vertices_mm.size());
-  for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k) {
-    if (mesh.measured[k] == 0) continue;
-    const Vector3d p = rectified(pair, mesh.vertices_mm[k]);
-    if (p.z() > 0) all.push_back({p, double(mesh.sigma_mm[k])});
-  }
-  return all;
-}
-
 // Of triangles wider than a cell also places in between: what spans scattered points is measured surface.
 void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair) {
   for (const auto& t : mesh.triangles) {
@@ -164,12 +153,7 @@ using Rows = std::pmr::vector<Row>;
 class Sheet {
  public:
   // `rows`: room for a row a cell, lent for the sheet's life.
-  Sheet(const HeightCells& cells, Lines lines, Rows& rows)
-      : cells_(cells),
-        lines_(lines),
-        cos_(std::cos(lines.direction)),
-        sin_(std::sin(lines.direction)),
-        rows_(rows) {
+  Sheet(const HeightCells& cells, Lines lines, Rows& rows) : cells_(cells), lines_(lines), rows_(rows) {
     const double reach = 0.5 * kSide * kReliefCellMm * std::numbers::sqrt2;
     const double widest = reach / (1 - std::min(0.8, std::abs(lines.convergence) * reach));
     begin_ = -widest, step_ = 2 * widest / (kSpline - 3);
@@ -243,7 +227,7 @@ class Sheet {
 
   const HeightCells& cells_;
   Lines lines_;
-  double cos_, sin_;
+  double cos_{std::cos(lines_.direction)}, sin_{std::sin(lines_.direction)};
   Rows& rows_;
   double begin_ = 0, step_ = 1;
   Unknowns x_ = Unknowns::Zero();
@@ -263,7 +247,13 @@ struct Best {
 
 HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) {
   HeightCells out(&context.scratch);
-  Samples all = measured_of(mesh, pair, &context.scratch);
+  Samples all(&context.scratch);
+  all.reserve(mesh.vertices_mm.size());
+  for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k) {
+    if (mesh.measured[k] == 0) continue;
+    const Vector3d p = rectified(pair, mesh.vertices_mm[k]);
+    if (p.z() > 0) all.push_back({p, double(mesh.sigma_mm[k])});
+  }
   add_between(all, mesh, pair);
   if (all.size() < kEnough) return out;
   const Vector3d middle = middle_of(all, pair, &context.scratch);

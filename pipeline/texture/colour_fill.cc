@@ -19,18 +19,6 @@ constexpr std::size_t kSweptVertices = 1'500'000;
 constexpr float kStill = 0.25F;          // grey levels: nothing moves by more
 constexpr float kOverRelaxation = 1.6F;  // Young's successive over-relaxation; below 2 it converges
 
-// Neighbours of the unknown vertices, each as often as triangles say so: twice inside, once at an edge.
-Groups neighbours_of(const FaceMesh& mesh, std::span<const std::uint8_t> known,
-                     std::pmr::memory_resource* memory) {
-  Groups neighbours(memory);
-  neighbours.sort(mesh.vertices_mm.size(), [&](auto&& add) {
-    for (const auto& t : mesh.triangles)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (known[t[i]] == 0) add(t[i], t[(i + 1) % 3]), add(t[i], t[(i + 2) % 3]);
-  });
-  return neighbours;
-}
-
 // Unknown vertices in the order in which the known ones reach them, coloured by those that came before.
 std::pmr::vector<std::uint32_t> reach(std::span<const std::uint8_t> known, const Groups& neighbours,
                                       std::span<VertexColour> colours, std::pmr::memory_resource* memory) {
@@ -86,7 +74,13 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
   for (std::size_t v = 0; v < known.size(); ++v)
     if (known[v] == 0) colours[v] = {float(mean[0]), float(mean[1]), float(mean[2])};
   if (std::ranges::find(known, std::uint8_t{1}) == known.end()) return;
-  const Groups neighbours = neighbours_of(mesh, known, &context.scratch);
+  // Of the unknown vertices, each as often as triangles say so: twice inside, once at an edge.
+  Groups neighbours(&context.scratch);
+  neighbours.sort(mesh.vertices_mm.size(), [&](auto&& add) {
+    for (const auto& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (known[t[i]] == 0) add(t[i], t[(i + 1) % 3]), add(t[i], t[(i + 2) % 3]);
+  });
   const std::pmr::vector<std::uint32_t> order = reach(known, neighbours, colours, &context.scratch);
   float moved = 0;
   const auto relax = [&](std::uint32_t v) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "pipeline/base/stage.h"
 #include "pipeline/model/photo_sampler.h"
@@ -29,11 +28,11 @@ Result<void> check_input(const FaceMesh& mesh, const RectifiedPair& pair) {
   const std::size_t n = mesh.vertices_mm.size();
   if (mesh.triangles.empty() || n == 0 || mesh.normals.size() != n ||
       (!mesh.measured.empty() && mesh.measured.size() != n))
-    return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
+    return invalid("there is no surface to lay a photograph on");
   const std::size_t bytes =
       3 * std::size_t(std::max(pair.width_px, 0)) * std::size_t(std::max(pair.height_px, 0));
   if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
-    return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
+    return invalid("the rectified pair has no colours to lay on the surface");
   return {};
 }
 
@@ -48,18 +47,7 @@ class Layer {
         pair_(pair),
         options_(options),
         shot_{float(options.angle_power), float(options.occlusion_px), float(options.feather_px), left_only},
-        context_(context),
-        chart_(
-            lay_out(mesh, pair, {options.max_atlas_px, options.margin_px, options.finer}, &context.scratch)),
-        bands_(mesh, chart_, kBands, &context.scratch),
-        maps_{FrontMap(chart_, 0, &context.scratch), FrontMap(chart_, kLeftSide, &context.scratch),
-              FrontMap(chart_, kRightSide, &context.scratch)},
-        kept_(mesh.triangles.size(), 0, &context.scratch),
-        photographed_(mesh.vertices_mm.size(), 0, &context.scratch),
-        known_(mesh.vertices_mm.size(), 0, &context.scratch),
-        colours_(mesh.vertices_mm.size(), VertexColour{}, &context.scratch),
-        sides_(&context.scratch),
-        atlas_(&context.output) {}
+        context_(context) {}
 
   Result<TextureAtlas> run() {
     fill_front_maps(mesh_, chart_, bands_, maps_, context_);
@@ -151,18 +139,16 @@ class Layer {
   }
 
   void shade(const ShotPlanes& planes, const ViewBlend& blend) {
-    const auto shade_rows = [&](int begin, int end, int) {
-      for (int y = begin; y < end && !context_.stop(); ++y)
-        for (int x = 0; x < chart_.width_px; ++x) {
-          const std::size_t k = chart_.index(x, y);
-          if ((planes.seen[k] & kSurface) == 0 ||
-              !all_three(photographed_, mesh_.triangles[maps_[0].owner[k]]))
-            continue;
-          const ViewBlend::Colour colour = blend.mix(k, x, y);
-          set(atlas_.index(x, y), colour.rgb, origin_of(colour.share));
-        }
-    };
-    context_.pool.for_each_band(chart_.height_px, kBands, std::cref(shade_rows));  // by reference: no heap
+    context_.pool.for_each(chart_.height_px, kBands, [&](int y) {
+      if (context_.stop()) return;
+      for (int x = 0; x < chart_.width_px; ++x) {
+        const std::size_t k = chart_.index(x, y);
+        if ((planes.seen[k] & kSurface) == 0 || !all_three(photographed_, mesh_.triangles[maps_[0].owner[k]]))
+          continue;
+        const ViewBlend::Colour colour = blend.mix(k, x, y);
+        set(atlas_.index(x, y), colour.rgb, origin_of(colour.share));
+      }
+    });
   }
 
   // What was photographed and yet does not fit into the main chart: folds, read from the photographs.
@@ -260,15 +246,21 @@ class Layer {
   const TwoViewTexturer& options_;
   ShotOptions shot_;
   StageContext& context_;
-  Chart chart_;
-  RowBands bands_;
-  std::array<FrontMap, 3> maps_;                 // middle, left, right
-  std::pmr::vector<std::uint8_t> kept_;          // a triangle: 1 in the main chart
-  std::pmr::vector<std::uint8_t> photographed_;  // a vertex: 1 seen by a camera
-  std::pmr::vector<std::uint8_t> known_;         // a vertex: 1 where a photograph gave it its colour
-  std::pmr::vector<VertexColour> colours_;
-  SideCharts sides_;
-  TextureAtlas atlas_;
+  Chart chart_{
+      lay_out(mesh_, pair_, {options_.max_atlas_px, options_.margin_px, options_.finer}, &context_.scratch)};
+  RowBands bands_{mesh_, chart_, kBands, &context_.scratch};
+  std::array<FrontMap, 3> maps_{FrontMap(chart_, 0, &context_.scratch),
+                                FrontMap(chart_, kLeftSide, &context_.scratch),
+                                FrontMap(chart_, kRightSide, &context_.scratch)};  // middle, left, right
+  // A triangle: 1 in the main chart.
+  std::pmr::vector<std::uint8_t> kept_{mesh_.triangles.size(), 0, &context_.scratch};
+  // A vertex: 1 seen by a camera.
+  std::pmr::vector<std::uint8_t> photographed_{mesh_.vertices_mm.size(), 0, &context_.scratch};
+  // A vertex: 1 where a photograph gave it its colour.
+  std::pmr::vector<std::uint8_t> known_{mesh_.vertices_mm.size(), 0, &context_.scratch};
+  std::pmr::vector<VertexColour> colours_{mesh_.vertices_mm.size(), VertexColour{}, &context_.scratch};
+  SideCharts sides_{&context_.scratch};
+  TextureAtlas atlas_{&context_.output};
 };
 
 Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& pair,
@@ -280,7 +272,7 @@ Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& 
 
 Result<void> check_margin(int margin_px, int max_atlas_px, std::string_view algorithm) {
   if (4 * margin_px <= max_atlas_px) return {};
-  return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at(algorithm);
+  return invalid("margin_px must be at most a quarter of max_atlas_px").at(algorithm);
 }
 
 }  // namespace

@@ -36,10 +36,9 @@ Waiter& busy_waiter() {
 Result<void> GpioTiming::check() const {
   for (const auto time : {delay, lamp_lead, lamp_time})
     if (time.count() < 0 || time > TriggerLine::kLongestPulse)
-      return Error{Errc::InvalidInput, "the trigger's delay and the lamp's times are from 0 to 0.1 s"};
+      return invalid("the trigger's delay and the lamp's times are from 0 to 0.1 s");
   if (!lamp_on_trigger_wire && lamp_time.count() > 0 && lamp_time <= lamp_lead)
-    return Error{Errc::InvalidInput,
-                 "the lamp is lit for longer than its lead, or the cameras expose in the dark"};
+    return invalid("the lamp is lit for longer than its lead, or the cameras expose in the dark");
   return {};
 }
 

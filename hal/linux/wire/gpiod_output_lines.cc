@@ -12,7 +12,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <utility>
 #include <vector>
 
 namespace relievo::hal {
@@ -74,11 +73,6 @@ Error line_error(int number) {
     case EBUSY: return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
     default: return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
   }
-}
-
-Error set_error(int number) {
-  if (number == ENODEV) return Error{Errc::Disconnected, "the GPIO chip is gone: check its plug", number};
-  return Error{Errc::IoFailed, "the GPIO line does not answer", number};
 }
 
 #ifdef RELIEVO_GPIOD_2
@@ -165,8 +159,9 @@ class GpiodOutputLines final : public OutputLines {
   Result<void> set(Wire wire, bool active) override {
     const std::size_t line = wire == Wire::Trigger ? 0 : 1;
     if (line >= lines_.count()) return {};  // no lamp
-    if (!lines_.set(line, active)) return set_error(errno);
-    return {};
+    if (lines_.set(line, active)) return {};
+    if (errno == ENODEV) return Error{Errc::Disconnected, "the GPIO chip is gone: check its plug", errno};
+    return Error{Errc::IoFailed, "the GPIO line does not answer", errno};
   }
 
  private:

@@ -3,7 +3,6 @@
 #include "hal/sim/head/head_model.h"
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/head/shape/head_field.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -99,15 +98,6 @@ void grow_scalp(Grower& grower, const HeadField& field, const Mesh& skin, const 
   }
 }
 
-Vec3 on_skin(const HeadField& field, Vec3 p) {
-  for (int i = 0; i < 12; ++i) {
-    const double d = field.distance(p);
-    if (std::abs(d) < 0.02) break;
-    p.z -= std::clamp(d, -4.0, 4.0) * 0.9;
-  }
-  return p;
-}
-
 void grow_brows(Grower& grower, const HeadField& field) {
   const HeadTraits& t = field.traits;
   Random& random = grower.random();
@@ -118,7 +108,12 @@ void grow_brows(Grower& grower, const HeadField& field) {
     const double across = random.normal_within(1.7) * 0.52;
     const double ax = mix(brow.inner, brow.outer, s),
                  y = brow.middle_y(s) + across * brow.half_height(s) - 0.5;
-    const Vec3 root = on_skin(field, {side * ax, y, field.skull.front_z(ax, y) + 2});
+    Vec3 root{side * ax, y, field.skull.front_z(ax, y) + 2};
+    for (int i = 0; i < 12; ++i) {  // on the skin
+      const double d = field.distance(root);
+      if (std::abs(d) < 0.02) break;
+      root.z -= std::clamp(d, -4.0, 4.0) * 0.9;
+    }
     // Upwards at the root of the nose, then outwards, the upper ones down and the lower ones up.
     const double lift = mix(1.5, -0.55, smoothstep(0.0, 0.75, s)) - 0.55 * across;
     const Vec3 direction{side * mix(0.35, 1, smoothstep(-0.05, 0.3, s)), lift * 0.6 + 0.16 * random.normal(),

@@ -337,19 +337,17 @@ void HeadModel::measure_openness(ThreadPool& pool) {
   for (Shell& shell : shells) {
     if (shell.mesh.points.empty()) continue;
     shell.openness.assign(shell.mesh.points.size(), 0.8F);
-    pool.for_each_band(int(shell.mesh.points.size()), 64, [&](int begin, int end, int) {
-      for (int i = begin; i < end; ++i) {
-        const auto k = std::size_t(i);
-        const Vec3 p = point_of(shell.mesh, k), n = shell.normals[k];
-        if (p.z < -35) continue;  // no camera comes to see it
-        int open = 0;
-        for (int r = 0; r < kRays; ++r)
-          open += caster.blocked(p + n * 0.12, sky_direction(n, r, kRays, hash_cell(i, r / kRays, 3, 5)),
-                                 kReachMm)
-                      ? 0
-                      : 1;
-        shell.openness[k] = float(open) / kRays;
-      }
+    pool.for_each(int(shell.mesh.points.size()), 64, [&](int i) {
+      const auto k = std::size_t(i);
+      const Vec3 p = point_of(shell.mesh, k), n = shell.normals[k];
+      if (p.z < -35) return;  // no camera comes to see it
+      int open = 0;
+      for (int r = 0; r < kRays; ++r)
+        open +=
+            caster.blocked(p + n * 0.12, sky_direction(n, r, kRays, hash_cell(i, r / kRays, 3, 5)), kReachMm)
+                ? 0
+                : 1;
+      shell.openness[k] = float(open) / kRays;
     });
     smooth_over(shell.mesh, shell.openness, 4);
   }

@@ -5,7 +5,6 @@
 // The seed is the person; the pose is how they stand. Building takes seconds and both threads.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
 #include "hal/base/thread_pool.h"

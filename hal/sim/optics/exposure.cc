@@ -49,18 +49,17 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
   const int w = picture.width_px, h = picture.height_px;
   for (const bool across : {true, false}) {
     std::vector<float> out(picture.rgb.size());
-    pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-      for (int y = begin; y < end; ++y)
-        for (int x = 0; x < w; ++x)
-          for (std::size_t c = 0; c < 3; ++c) {
-            float sum = 0;
-            for (int k = -reach; k <= reach; ++k) {
-              const std::size_t from = across ? index_of(w, std::clamp(x + k, 0, w - 1), y)
-                                              : index_of(w, x, std::clamp(y + k, 0, h - 1));
-              sum += weight[std::size_t(k + reach)] * picture.rgb[3 * from + c];
-            }
-            out[3 * index_of(w, x, y) + c] = sum;
+    pool.for_each(h, kBands, [&](int y) {
+      for (int x = 0; x < w; ++x)
+        for (std::size_t c = 0; c < 3; ++c) {
+          float sum = 0;
+          for (int k = -reach; k <= reach; ++k) {
+            const std::size_t from = across ? index_of(w, std::clamp(x + k, 0, w - 1), y)
+                                            : index_of(w, x, std::clamp(y + k, 0, h - 1));
+            sum += weight[std::size_t(k + reach)] * picture.rgb[3 * from + c];
           }
+          out[3 * index_of(w, x, y) + c] = sum;
+        }
     });
     picture.rgb.swap(out);
   }
@@ -111,27 +110,25 @@ LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions
   out.rgb.resize(3 * count);
   std::vector<Cell> cells(count);
   const Vec3 eye = view.centre();
-  pool.for_each_band(view.height_px, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < view.width_px; ++x) {
-        const std::size_t i = index_of(view.width_px, x, y);
-        const RayHit hit = scene.look(eye, view.ray(x, y));
-        store(out, i, hit.light);
-        cells[i] = {hit.body, float(hit.distance_mm), hit.fine};
-      }
+  pool.for_each(view.height_px, kBands, [&](int y) {
+    for (int x = 0; x < view.width_px; ++x) {
+      const std::size_t i = index_of(view.width_px, x, y);
+      const RayHit hit = scene.look(eye, view.ray(x, y));
+      store(out, i, hit.light);
+      cells[i] = {hit.body, float(hit.distance_mm), hit.fine};
+    }
   });
-  pool.for_each_band(view.height_px, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < view.width_px; ++x) {
-        const std::size_t i = index_of(view.width_px, x, y);
-        bool edge = cells[i].fine;
-        for (int k = 0; k < 4 && !edge; ++k) {
-          const int u = std::clamp(x + (k == 0) - (k == 1), 0, view.width_px - 1),
-                    v = std::clamp(y + (k == 2) - (k == 3), 0, view.height_px - 1);
-          edge = differs(cells[i], cells[index_of(view.width_px, u, v)]);
-        }
-        if (edge) store(out, i, many_samples(scene, view, eye, x, y));
+  pool.for_each(view.height_px, kBands, [&](int y) {
+    for (int x = 0; x < view.width_px; ++x) {
+      const std::size_t i = index_of(view.width_px, x, y);
+      bool edge = cells[i].fine;
+      for (int k = 0; k < 4 && !edge; ++k) {
+        const int u = std::clamp(x + (k == 0) - (k == 1), 0, view.width_px - 1),
+                  v = std::clamp(y + (k == 2) - (k == 3), 0, view.height_px - 1);
+        edge = differs(cells[i], cells[index_of(view.width_px, u, v)]);
       }
+      if (edge) store(out, i, many_samples(scene, view, eye, x, y));
+    }
   });
   // Defocus is a matter of the lens, so it scales with the pixels of a smaller picture.
   blur(out, sensor.defocus_px, pool);
@@ -142,12 +139,9 @@ Picture read_sensor(const LightPicture& light, const SensorOptions& s, std::uint
   // Hashed first: neighbouring seeds of Random are neighbouring places of one sequence, and the next
   // frame's noise would be this one's, a channel further on.
   Random random(Random(noise_seed).next());
-  Picture out;
-  out.width_px = light.width_px;
-  out.height_px = light.height_px;
-  out.format = s.grey ? PixelFormat::Grey8 : PixelFormat::Rgb8;
   const std::size_t count = light.rgb.size() / 3;
-  out.bytes.resize(s.grey ? count : 3 * count);
+  Picture out{std::vector<std::byte>(s.grey ? count : 3 * count), light.width_px, light.height_px,
+              s.grey ? PixelFormat::Grey8 : PixelFormat::Rgb8};
   const auto read = [&](double v) {
     const double electrons = std::max(v * s.exposure, 0.0) * s.full_well_electrons;
     const double deviation = s.noise * std::sqrt(electrons + s.read_noise_electrons * s.read_noise_electrons);

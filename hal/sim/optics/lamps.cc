@@ -21,8 +21,7 @@ constexpr double kScreenHalfWide = 238, kScreenHalfHigh = 134, kScreenWhite = 0.
 
 Result<void> HeadLighting::check() const {
   for (const double power : {left, right, below, screen})
-    if (!(power >= 0) || !(power <= 10))
-      return Error{Errc::InvalidInput, "a lamp is 0 to 10 times as bright as usual"};
+    if (!(power >= 0) || !(power <= 10)) return invalid("a lamp is 0 to 10 times as bright as usual");
   return {};
 }
 

@@ -75,12 +75,10 @@ Vec3 SimView::ray(double x_px, double y_px) const {
 Result<void> RigOptions::check() const {
   if (std::max(width_px, height_px) < 64 || std::min(width_px, height_px) < 40 ||
       std::max(width_px, height_px) > 8192)
-    return Error{Errc::InvalidInput,
-                 "the simulated picture must be between 64x40 and 8192x8192 px, or the same upright"};
+    return invalid("the simulated picture must be between 64x40 and 8192x8192 px, or the same upright");
   if (!(focal_px > 100) || !(baseline_mm > 1) || !(convergence_mm > 50))
-    return Error{
-        Errc::InvalidInput,
-        "the simulated rig needs a focal length over 100 px, a baseline over 1 mm and a distance over 50 mm"};
+    return invalid(
+        "the simulated rig needs a focal length over 100 px, a baseline over 1 mm and a distance over 50 mm");
   return {};
 }
 

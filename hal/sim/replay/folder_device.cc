@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
-#include <optional>
 
 #include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"
@@ -62,8 +61,7 @@ Result<std::unique_ptr<Device>> make_folder_device(const std::filesystem::path& 
   RELIEVO_TRY_ASSIGN(const Picture left, read_picture(pairs.front().left));
   RELIEVO_TRY_ASSIGN(const Picture right, read_picture(pairs.front().right));
   if (left.width_px != right.width_px || left.height_px != right.height_px)
-    return Error{Errc::InvalidInput, "the left and right pictures differ in size"}.at(
-        pairs.front().right.native());
+    return invalid("the left and right pictures differ in size").at(pairs.front().right.native());
   const auto exposure = capture.frames.empty() ? 0 : capture.frames.front().exposure_us;
   const CaptureMode mode{left.width_px, left.height_px, std::chrono::microseconds(exposure)};
   return std::unique_ptr<Device>(std::make_unique<ReplayDevice>(

@@ -11,14 +11,6 @@
 #include <utility>
 
 namespace relievo::hal {
-namespace {
-
-bool is_picture(const std::filesystem::path& file) {
-  const std::string e = lower_extension(file);
-  return e == ".png" || e == ".jpg" || e == ".jpeg";
-}
-
-}  // namespace
 
 void FolderMedia::plug(std::filesystem::path root) {
   const std::lock_guard lock(mutex_);
@@ -80,16 +72,15 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::
   std::map<std::string, PicturePairFiles> by_rest;  // sorted by name
   for (const std::filesystem::directory_iterator end; entries != end && !failed; entries.increment(failed)) {
     const std::filesystem::directory_entry& entry = *entries;
-    const std::string stem = entry.path().stem().native();
-    if (!is_picture(entry.path()) || !entry.is_regular_file(failed)) continue;
+    const std::string stem = entry.path().stem().native(), e = lower_extension(entry.path());
+    if ((e != ".png" && e != ".jpg" && e != ".jpeg") || !entry.is_regular_file(failed)) continue;
     const bool left = stem.starts_with("left"), right = stem.starts_with("right");
     if (!left && !right) continue;
     const std::string rest = stem.substr(left ? 4 : 5);
     PicturePairFiles& pair = by_rest[rest];
     std::filesystem::path& mine = left ? pair.left : pair.right;
     if (!mine.empty())
-      return Error{Errc::InvalidInput, "two pictures share this name; keep one of them"}.at(
-          entry.path().native());
+      return invalid("two pictures share this name; keep one of them").at(entry.path().native());
     mine = entry.path();
     pair.rest = rest;
   }
@@ -101,11 +92,9 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::
   std::vector<PicturePairFiles> pairs;
   for (auto& [rest, pair] : by_rest) {
     if (pair.right.empty())
-      return Error{Errc::InvalidInput, "this left picture has no right partner of the same name"}.at(
-          pair.left.native());
+      return invalid("this left picture has no right partner of the same name").at(pair.left.native());
     if (pair.left.empty())
-      return Error{Errc::InvalidInput, "this right picture has no left partner of the same name"}.at(
-          pair.right.native());
+      return invalid("this right picture has no left partner of the same name").at(pair.right.native());
     pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -156,7 +145,7 @@ Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
   seen_ = pulse.number;
   RELIEVO_TRY_ASSIGN(PairSource::Exposure exposure, source_.expose(side_, pulse.number));
   if (exposure.picture.width_px != only_mode_.width_px || exposure.picture.height_px != only_mode_.height_px)
-    return Error{Errc::InvalidInput, "this picture's size differs from the first one's"};
+    return invalid("this picture's size differs from the first one's");
   Buffer& buffer = buffers_[std::size_t(slot)];
   buffer.picture = std::move(exposure.picture);
   buffer.lent = true;

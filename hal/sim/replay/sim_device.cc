@@ -33,11 +33,7 @@ std::string album_name(const sim::SimulationOptions& o, double yaw_deg) {
 class RenderedSource final : public PairSource {
  public:
   RenderedSource(const SimDeviceOptions& options, std::vector<sim::BoardPose> poses)
-      : o_(options.simulation),
-        rig_(sim::make_rig(o_.rig)),
-        album_(options.album),
-        pool_(options.threads),
-        poses_(std::move(poses)) {
+      : o_(options.simulation), album_(options.album), pool_(options.threads), poses_(std::move(poses)) {
     // Here, since a frame has a deadline, and a slow machine takes half a minute to make a head.
     if (poses_.empty()) shown_ = &photograph(0);
     else expose_both(0);
@@ -98,12 +94,15 @@ class RenderedSource final : public PairSource {
     if (!head_) head_ = sim::make_head(sim::traits_of(o_.seed), pool_);
     expose_both(*sim::make_head_scene(head_, sim::turned_about_neck(o_.pose, yaw_deg), pool_));
     Rolls made(2 * kRolls);
-    pool_.for_each_band(int(made.size()), int(made.size()), [&](int begin, int end, int) {
-      for (int i = begin; i < end; ++i)
-        made[std::size_t(i)] = roll(i % 2 == 0 ? Side::Left : Side::Right, std::uint32_t(i / 2));
+    pool_.for_each(int(made.size()), int(made.size()), [&](int i) {
+      made[std::size_t(i)] = roll(i % 2 == 0 ? Side::Left : Side::Right, std::uint32_t(i / 2));
     });
     rolls = std::move(made);
-    if (!file.empty()) keep_rolls(file, rolls);
+    if (file.empty()) return rolls;
+    std::vector<std::byte> bytes;
+    for (const Picture& picture : rolls)
+      bytes.insert(bytes.end(), picture.bytes.begin(), picture.bytes.end());
+    static_cast<void>(write_whole_file(file, bytes));  // what cannot be kept is rendered again
     return rolls;
   }
 
@@ -115,13 +114,6 @@ class RenderedSource final : public PairSource {
       rolls.push_back(
           {{from, from + std::ptrdiff_t(size)}, rig_.left.width_px, rig_.left.height_px, PixelFormat::Rgb8});
     return true;
-  }
-  // What cannot be kept is rendered again.
-  static void keep_rolls(const std::filesystem::path& file, const Rolls& rolls) {
-    std::vector<std::byte> bytes;
-    for (const Picture& picture : rolls)
-      bytes.insert(bytes.end(), picture.bytes.begin(), picture.bytes.end());
-    static_cast<void>(write_whole_file(file, bytes));
   }
 
   Picture roll(Side side, std::uint32_t number) const {
@@ -141,7 +133,7 @@ class RenderedSource final : public PairSource {
   }
 
   sim::SimulationOptions o_;
-  sim::SimRig rig_;
+  sim::SimRig rig_{sim::make_rig(o_.rig)};
   std::filesystem::path album_;
   std::mutex mutex_;
   ThreadPool pool_;

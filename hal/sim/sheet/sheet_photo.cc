@@ -3,7 +3,6 @@
 #include "hal/sim/sheet/sheet_photo.h"
 
 #include <cmath>
-#include <vector>
 
 namespace relievo::hal::sim {
 namespace {
@@ -85,12 +84,7 @@ class Print {
 
 class SheetScene final : public Scene {
  public:
-  SheetScene(const Picture& picture, const SheetOptions& o)
-      : print_(picture),
-        o_(o),
-        size_{o.width_mm, o.width_mm * print_.aspect()},
-        sheet_(make_sheet(size_, o.bend)),
-        panels_(lamp_panels(o.lamps)) {
+  SheetScene(const Picture& picture, const SheetOptions& o) : print_(picture), o_(o) {
     const Mat3 turn = rotation(radians(o.pose.pitch_deg), radians(-o.pose.yaw_deg), radians(o.pose.roll_deg));
     const Vec3 middle{o.pose.right_mm, o.pose.down_mm, o.pose.distance_mm};
     for (std::size_t i = 0; i < sheet_.mesh.points.size(); ++i)
@@ -177,9 +171,9 @@ class SheetScene final : public Scene {
 
   Print print_;
   SheetOptions o_;
-  SheetSize size_;
-  SheetMesh sheet_;
-  std::array<Panel, kPanels> panels_;
+  SheetSize size_{o_.width_mm, print_.aspect() * o_.width_mm};
+  SheetMesh sheet_{make_sheet(size_, o_.bend)};
+  std::array<Panel, kPanels> panels_{lamp_panels(o_.lamps)};
   std::vector<Vec3> normals_;
   RayCaster caster_;
 };
@@ -188,15 +182,12 @@ class SheetScene final : public Scene {
 
 Result<void> SheetBend::check() const {
   if (radius_mm != 0 && !(std::abs(radius_mm) >= kLeastRadiusMm))
-    return Error{Errc::InvalidInput, "a sheet bends to a radius of 30 mm and no closer; 0 is flat"};
-  if (!std::isfinite(radius_mm) || !std::isfinite(axis_deg))
-    return Error{Errc::InvalidInput, "a sheet's bend must be finite"};
+    return invalid("a sheet bends to a radius of 30 mm and no closer; 0 is flat");
+  if (!std::isfinite(radius_mm) || !std::isfinite(axis_deg)) return invalid("a sheet's bend must be finite");
   if (apex_mm != 0 && !(std::abs(apex_mm) >= 250))
-    return Error{Errc::InvalidInput, "a cone's apex lies 250 mm from the sheet's middle or further"};
-  if (wave_mm != 0 && !(wave_mm >= 60))
-    return Error{Errc::InvalidInput, "a sheet's wave is 60 mm long or longer"};
-  if (apex_mm != 0 && wave_mm != 0)
-    return Error{Errc::InvalidInput, "a sheet is bent to a cone or in waves, not both"};
+    return invalid("a cone's apex lies 250 mm from the sheet's middle or further");
+  if (wave_mm != 0 && !(wave_mm >= 60)) return invalid("a sheet's wave is 60 mm long or longer");
+  if (apex_mm != 0 && wave_mm != 0) return invalid("a sheet is bent to a cone or in waves, not both");
   return {};
 }
 
@@ -236,15 +227,14 @@ SheetMesh make_sheet(const SheetSize& size, const SheetBend& bend) {
 
 Result<void> SheetLook::check() const {
   if (!(brightness > 0) || !(brightness <= 2))
-    return Error{Errc::InvalidInput, "a sheet's white is 0 to 2 times a white surface's light"};
-  if (!(gloss >= 0) || !(gloss <= 1)) return Error{Errc::InvalidInput, "gloss is a share from 0 to 1"};
-  if (!(roughness >= 0) || !(roughness <= 1)) return Error{Errc::InvalidInput, "roughness is 0 to 1 radians"};
+    return invalid("a sheet's white is 0 to 2 times a white surface's light");
+  if (!(gloss >= 0) || !(gloss <= 1)) return invalid("gloss is a share from 0 to 1");
+  if (!(roughness >= 0) || !(roughness <= 1)) return invalid("roughness is 0 to 1 radians");
   return {};
 }
 
 Result<void> SheetOptions::check() const {
-  if (!(width_mm >= 20) || !(width_mm <= 2000))
-    return Error{Errc::InvalidInput, "a picture is held 20 to 2000 mm wide"};
+  if (!(width_mm >= 20) || !(width_mm <= 2000)) return invalid("a picture is held 20 to 2000 mm wide");
   RELIEVO_TRY(bend.check());
   RELIEVO_TRY(look.check());
   return lamps.check();
@@ -253,9 +243,9 @@ Result<void> SheetOptions::check() const {
 Result<std::unique_ptr<Scene>> make_sheet_scene(const Picture& picture, const SheetOptions& options) {
   RELIEVO_TRY(options.check());
   if (picture.format == PixelFormat::Grey16)
-    return Error{Errc::InvalidInput, "a picture to be held up has 8 bits: grey or colour"};
+    return invalid("a picture to be held up has 8 bits: grey or colour");
   if (picture.width_px < 2 || picture.height_px < 2)
-    return Error{Errc::InvalidInput, "a picture to be held up has at least 2 by 2 pixels"};
+    return invalid("a picture to be held up has at least 2 by 2 pixels");
   return std::unique_ptr<Scene>(std::make_unique<SheetScene>(picture, options));
 }
 

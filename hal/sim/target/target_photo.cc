@@ -40,12 +40,6 @@ double matt_light(Vec3 p, Vec3 normal) {
   return light;
 }
 
-// What is behind an artefact.
-Vec3 dark_room(Vec3 direction) {
-  const double grey = 0.03 + 0.006 * value_noise(direction * 6, 99) - 0.015 * direction.y;
-  return {grey, grey * 1.02, grey * 1.05};
-}
-
 enum Body : std::int32_t { kSphere, kRod, kPlate };
 constexpr double kNone = RayCaster::kFar;
 
@@ -110,15 +104,15 @@ double speckle(Vec3 p, std::uint32_t seed) {
 Result<void> Dumbbell::check() const {
   if (!(diameter_mm >= 10) || !(diameter_mm <= 200) || !(spacing_mm > diameter_mm) || !(spacing_mm <= 500) ||
       !(rod_radius_mm > 0) || !(rod_radius_mm < diameter_mm / 4))
-    return Error{Errc::InvalidInput,
-                 "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod "
-                 "thinner than half of one"};
+    return invalid(
+        "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod "
+        "thinner than half of one");
   return {};
 }
 
 Result<void> FlatPlate::check() const {
   if (!(width_mm >= 20) || !(height_mm >= 20) || !(width_mm <= 1000) || !(height_mm <= 1000))
-    return Error{Errc::InvalidInput, "a plate measures between 20 and 1000 mm a side"};
+    return invalid("a plate measures between 20 and 1000 mm a side");
   return {};
 }
 
@@ -133,7 +127,10 @@ ArtefactScene::Met ArtefactScene::met_from(Vec3 origin, Vec3 direction) const {
 RayHit ArtefactScene::look(Vec3 origin, Vec3 direction) const {
   const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
   const Met met = meet(o, d);
-  if (met.distance == kNone) return {dark_room(direction), kNone, met.body, false};
+  if (met.distance == kNone) {
+    const double dark = 0.03 + 0.006 * value_noise(direction * 6, 99) - 0.015 * direction.y;
+    return {{dark, dark * 1.02, dark * 1.05}, kNone, met.body, false};
+  }
   const double reflectance = met.printed ? speckle(o + d * met.distance, seed_) : 0.10;
   const double light = matt_light(origin + direction * met.distance, pose_.world_from_artefact * met.normal);
   // Dots are finer than a sample a pixel could show without aliasing.
@@ -183,8 +180,7 @@ Result<PicturePair> photograph_board(const TargetPhotoOptions& options, const Bo
   RELIEVO_TRY(options.rig.check());
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY_ASSIGN(const auto poses, good_board_poses(rig, board, count, options.seed));
-  if (number < 0 || number >= count)
-    return Error{Errc::InvalidInput, "there is no board of this number in the series"};
+  if (number < 0 || number >= count) return invalid("there is no board of this number in the series");
   TargetPhotoOptions grey = options;
   grey.sensor.grey = true;
   return take(BoardScene(board, poses[std::size_t(number)]), rig, grey, std::uint64_t(number));

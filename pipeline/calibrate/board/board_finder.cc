@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "hal/base/statistics.h"
 #include "pipeline/calibrate/board/corner_refiner.h"
@@ -147,23 +145,9 @@ Lattice upright(const Lattice& lattice, const BoardPattern& pattern) {
   return best;
 }
 
-// Room for what the search has overlooked, one line more than the board has: a larger board is none.
-Lattice with_room(const Lattice& lattice, const BoardPattern& pattern) {
-  const int most = std::max(pattern.columns, pattern.rows) + 1;
-  const int wide = std::max(most - lattice.columns(), 1);
-  const int high = std::max(most - lattice.rows(), 1);
-  return lattice.cut(-wide, -high, lattice.columns() + 2 * wide, lattice.rows() + 2 * high);
-}
-
 class Search {
  public:
-  Search(const ImageView& picture, const BoardPattern& pattern)
-      : pattern_(pattern),
-        pyramid_(picture),
-        clear_share_(pattern.kind == BoardKind::Chessboard
-                         ? kPlainShare
-                         : 0.5 - 0.5 * pattern.marker_side_mm() / pattern.square_mm),
-        full_size_(pyramid_.level(0), clear_share_) {}
+  Search(const ImageView& picture, const BoardPattern& pattern) : pattern_(pattern), pyramid_(picture) {}
 
   // In a reduced picture first: it has a board's corners, less noise and blur, and few pixels. What is
   // found of a ChArUco board is asked of the next larger one, too, as long as that knows more.
@@ -195,7 +179,9 @@ class Search {
       if (std::max(group.columns(), group.rows()) > most + 2 ||
           std::min(group.columns(), group.rows()) > least + 2)
         continue;
-      Lattice lattice = with_room(group, pattern_);
+      // Room for what the search has overlooked, one line more than the board has: a larger board is none.
+      const int wide = std::max(most + 1 - group.columns(), 1), high = std::max(most + 1 - group.rows(), 1);
+      Lattice lattice = group.cut(-wide, -high, group.columns() + 2 * wide, group.rows() + 2 * high);
       drop_strays(lattice, kStrayShare * step_px(lattice));
       fill_gaps(refiner, lattice);
       lattice = framed(lattice);
@@ -240,19 +226,12 @@ class Search {
 
   const BoardPattern& pattern_;
   GreyPyramid pyramid_;
-  double clear_share_;
-  CornerRefiner full_size_;
+  double clear_share_{pattern_.kind == BoardKind::Chessboard
+                          ? kPlainShare
+                          : 0.5 - 0.5 * pattern_.marker_side_mm() / pattern_.square_mm};
+  CornerRefiner full_size_{pyramid_.level(0), clear_share_};
   std::vector<std::uint64_t> markers_;
 };
-
-BoardCorners corners_of(const Lattice& lattice) {
-  BoardCorners corners;
-  for (int row = 0; row < lattice.rows(); ++row)
-    for (int column = 0; column < lattice.columns(); ++column)
-      corners.push_back(lattice.seen(column, row) ? lattice.node(column, row).at
-                                                  : Vec2d{std::nan(""), std::nan("")});
-  return corners;
-}
 
 constexpr int kMostMarkers = 1000;  // of a dictionary
 
@@ -309,17 +288,16 @@ void draw_marker(std::uint64_t white, int bits, double x_mm, double y_mm, double
 
 Result<void> BoardPattern::check() const {
   if (columns < 3 || rows < 3 || columns > 60 || rows > 60)
-    return Error{Errc::InvalidInput, "a board has 3 to 60 inner corners a side, as in 10x7"}.at("--corners");
+    return invalid("a board has 3 to 60 inner corners a side, as in 10x7").at("--corners");
   if (!(square_mm >= 0.1 && square_mm <= 1000))
-    return Error{Errc::InvalidInput, "a square must measure 0.1 to 1000 mm"}.at("--square-mm");
+    return invalid("a square must measure 0.1 to 1000 mm").at("--square-mm");
   if (kind == BoardKind::Chessboard) return {};
   if (!(marker_side_mm() >= 0.3 * square_mm && marker_side_mm() <= 0.9 * square_mm))
-    return Error{Errc::InvalidInput, "a marker measures 0.3 to 0.9 of its square"}.at("--marker-mm");
+    return invalid("a marker measures 0.3 to 0.9 of its square").at("--marker-mm");
   if (marker_bits < 4 || marker_bits > 7)
-    return Error{Errc::InvalidInput, "a marker has 4 to 7 bits a side"}.at("--marker-bits");
+    return invalid("a marker has 4 to 7 bits a side").at("--marker-bits");
   if (markers() > kMostMarkers)
-    return Error{Errc::InvalidInput, "a ChArUco board has at most 1000 markers; choose fewer corners"}.at(
-        "--corners");
+    return invalid("a ChArUco board has at most 1000 markers; choose fewer corners").at("--corners");
   return {};
 }
 
@@ -362,13 +340,18 @@ Result<std::vector<BlackArea>> draw_board(const BoardPattern& pattern) try {
 
 Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern) {
   RELIEVO_TRY(pattern.check());
-  if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
+  if (picture.empty()) return invalid("there is no picture to look for a board in");
   if (picture.width_px < kLeastSidePx || picture.height_px < kLeastSidePx)
     return Error{Errc::NotFound, "no board found"};
   try {
     const auto lattice = Search(picture, pattern).run();
     if (!lattice) return Error{Errc::NotFound, "no board found"};
-    return corners_of(*lattice);
+    BoardCorners corners;
+    for (int row = 0; row < lattice->rows(); ++row)
+      for (int column = 0; column < lattice->columns(); ++column)
+        corners.push_back(lattice->seen(column, row) ? lattice->node(column, row).at
+                                                     : Vec2d{std::nan(""), std::nan("")});
+    return corners;
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "there is not enough memory to look for a board"};
   } catch (const std::exception&) {

@@ -246,7 +246,11 @@ bool CornerRefiner::solve(bool coarse) {
     std::fill(p.begin() + CornerModel::Light, p.end(), 0.F);
     p[CornerModel::X] = p[CornerModel::Y] = 0;
     sum_up(true);
-    step_linear();
+    constexpr int kLinear = CornerModel::Count - CornerModel::kShapes;
+    Eigen::Matrix<double, kLinear, kLinear> n = sums_.information.bottomRightCorner<kLinear, kLinear>();
+    n.diagonal().array() += 1e-3;
+    const Eigen::Matrix<double, kLinear, 1> step = n.ldlt().solve(sums_.slope.tail<kLinear>());
+    for (int i = 0; i < kLinear; ++i) p[std::size_t(CornerModel::kShapes + i)] += float(step(i));
   }
   p[CornerModel::X] = p[CornerModel::Y] = 0;  // the window has moved there
   for (int round = 0; round < kMaxRounds; ++round) {
@@ -256,14 +260,6 @@ bool CornerRefiner::solve(bool coarse) {
     if (moved < (coarse ? kNearPx : kSettledPx)) return true;
   }
   return true;
-}
-
-void CornerRefiner::step_linear() {
-  constexpr int kLinear = CornerModel::Count - CornerModel::kShapes;
-  Eigen::Matrix<double, kLinear, kLinear> n = sums_.information.bottomRightCorner<kLinear, kLinear>();
-  n.diagonal().array() += 1e-3;
-  const Eigen::Matrix<double, kLinear, 1> step = n.ldlt().solve(sums_.slope.tail<kLinear>());
-  for (int i = 0; i < kLinear; ++i) model_.p[std::size_t(CornerModel::kShapes + i)] += float(step(i));
 }
 
 // One Gauss-Newton step with weak beliefs about directions and blur; returns how far the corner moved.

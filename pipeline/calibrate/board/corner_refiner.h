@@ -97,7 +97,6 @@ class CornerRefiner {
   bool solve(bool coarse);
   // Into sums_. The information is left as it was where only the slope is asked for.
   void sum_up(bool information);
-  void step_linear();
   double step_all();
   bool plausible(const CornerGuess& guess) const;
   CornerFit judged(const CornerGuess& guess, const Vec2d& at) const;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibrate/board/lattice.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -269,12 +268,10 @@ std::optional<CornerGuess> predict(const Lattice& lattice, int column, int row) 
   n(7, 7) += kPerspectivePx * kPerspectivePx;
   const Eigen::Matrix<double, 8, 1> h = solved<8>(n, g);
   if (!h.allFinite()) return std::nullopt;
-  CornerGuess guess;
-  guess.at = {h(2) + near.x, h(5) + near.y};
-  guess.along_row = {h(0) - h(2) * h(6), h(3) - h(5) * h(6)};
-  guess.along_column = {h(1) - h(2) * h(7), h(4) - h(5) * h(7)};
-  guess.dark = lattice.dark(column, row);
-  return guess;
+  return CornerGuess{.at = {h(2) + near.x, h(5) + near.y},
+                     .along_row = {h(0) - h(2) * h(6), h(3) - h(5) * h(6)},
+                     .along_column = {h(1) - h(2) * h(7), h(4) - h(5) * h(7)},
+                     .dark = lattice.dark(column, row)};
 }
 
 std::vector<Lattice> find_lattices(const SmoothPicture& picture, std::span<const Saddle> saddles, int least) {

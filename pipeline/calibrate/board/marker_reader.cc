@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibrate/board/lattice.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -89,60 +88,34 @@ bool read_square(const ImageView& picture, const Lattice& lattice, const BoardPa
   return border < 0;
 }
 
-std::vector<Reading> read_all(const ImageView& picture, const Lattice& lattice, const BoardPattern& pattern) {
-  std::vector<Reading> readings;
-  for (int row = 0; row + 1 < lattice.rows(); ++row)
-    for (int column = 0; column + 1 < lattice.columns(); ++column) {
-      if (lattice.dark(column, row) || !lattice.seen(column, row) || !lattice.seen(column + 1, row) ||
-          !lattice.seen(column, row + 1) || !lattice.seen(column + 1, row + 1))
-        continue;
-      Reading reading{column, row, {}};
-      if (read_square(picture, lattice, pattern, reading)) readings.push_back(std::move(reading));
-    }
-  return readings;
-}
-
-// As they read after Lattice::quarter_turned().
-void quarter_turn(std::vector<Reading>& readings, int rows, int bits) {
-  for (Reading& one : readings) {
-    std::vector<float> turned;
-    for (int v = 0; v < bits; ++v)
-      for (int u = 0; u < bits; ++u) turned.push_back(one.module[std::size_t((bits - 1 - u) * bits + v)]);
-    one = {rows - 2 - one.row, one.column, std::move(turned)};
-  }
-}
-
 struct Place {
   int turns = 0, left = 0, top = 0;  // quarter turns; which node of the lattice then is the board's first
   double agreement = 0;              // mean, -1 to 1
   double deviations = 0;
 };
 
-// The marker in the square whose first node is (column, row) of the board; -1 where there is none.
-int marker_at(int column, int row, const BoardPattern& pattern) {
-  const int across = pattern.columns + 1;
-  if (column < -1 || row < -1 || column >= pattern.columns || row >= pattern.rows || (column + row) % 2 == 0)
-    return -1;
-  return ((row + 1) * across + column + 1) / 2;
-}
-
-class Judge {
- public:
-  Judge(const BoardPattern& pattern, const std::vector<std::uint64_t>& markers)
-      : pattern_(pattern), markers_(markers) {}
+struct Judge {
+  const BoardPattern& pattern;
+  const std::vector<std::uint64_t>& markers;
+  Place best = {};
+  double next_deviations = 0;
 
   void judge(const Lattice& lattice, const std::vector<Reading>& readings, Place place) {
     const int outside =
-        lattice.count() - lattice.cut(place.left, place.top, pattern_.columns, pattern_.rows).count();
+        lattice.count() - lattice.cut(place.left, place.top, pattern.columns, pattern.rows).count();
     if (outside > kMostOutside * lattice.count()) return;
     double sum = 0;
     double squares = 0;
     std::size_t modules = 0;
     for (const Reading& one : readings) {
-      const int marker = marker_at(one.column - place.left, one.row - place.top, pattern_);
-      if (marker < 0) return;
+      // The marker in this square, whose first node is (column, row) of the board, if there is one.
+      const int column = one.column - place.left, row = one.row - place.top;
+      if (column < -1 || row < -1 || column >= pattern.columns || row >= pattern.rows ||
+          (column + row) % 2 == 0)
+        return;
+      const int marker = ((row + 1) * (pattern.columns + 1) + column + 1) / 2;
       // Without the mean of either: an evenly bright square agrees with nothing.
-      const std::uint64_t white = markers_[std::size_t(marker)];
+      const std::uint64_t white = markers[std::size_t(marker)];
       float mean = 0;
       float printed_mean = 0;
       for (std::size_t k = 0; k < one.module.size(); ++k) {
@@ -167,21 +140,15 @@ class Judge {
     if (!(squares > 0)) return;
     place.agreement = sum / squares;
     place.deviations = place.agreement * std::sqrt(double(modules));
-    if (place.deviations > best_.deviations) std::swap(place, best_);
-    next_deviations_ = std::max(next_deviations_, place.deviations);
+    if (place.deviations > best.deviations) std::swap(place, best);
+    next_deviations = std::max(next_deviations, place.deviations);
   }
 
   std::optional<Place> verdict() const {
-    const bool sure = best_.agreement >= kMinAgreement && best_.deviations >= kMinDeviations &&
-                      best_.deviations >= kMinLead * next_deviations_;
-    return sure ? std::optional(best_) : std::nullopt;
+    const bool sure = best.agreement >= kMinAgreement && best.deviations >= kMinDeviations &&
+                      best.deviations >= kMinLead * next_deviations;
+    return sure ? std::optional(best) : std::nullopt;
   }
-
- private:
-  const BoardPattern& pattern_;
-  const std::vector<std::uint64_t>& markers_;
-  Place best_;
-  double next_deviations_ = 0;
 };
 
 }  // namespace
@@ -189,15 +156,29 @@ class Judge {
 std::optional<Lattice> place_on_board(const ImageView& picture, const Lattice& lattice,
                                       const BoardPattern& pattern,
                                       const std::vector<std::uint64_t>& markers) {
-  std::vector<Reading> readings = read_all(picture, lattice, pattern);
+  std::vector<Reading> readings;
+  for (int row = 0; row + 1 < lattice.rows(); ++row)
+    for (int column = 0; column + 1 < lattice.columns(); ++column) {
+      if (lattice.dark(column, row) || !lattice.seen(column, row) || !lattice.seen(column + 1, row) ||
+          !lattice.seen(column, row + 1) || !lattice.seen(column + 1, row + 1))
+        continue;
+      Reading reading{column, row, {}};
+      if (read_square(picture, lattice, pattern, reading)) readings.push_back(std::move(reading));
+    }
   if (readings.size() < kLeastMarkers) return std::nullopt;
-  Judge judge(pattern, markers);
+  Judge judge{pattern, markers};
   Lattice turned = lattice;
   for (int turns = 0; turns < 4; ++turns) {
     for (int top = 1 - pattern.rows; top < turned.rows(); ++top)
       for (int left = 1 - pattern.columns; left < turned.columns(); ++left)
         if (turned.dark(left, top)) judge.judge(turned, readings, {turns, left, top});
-    quarter_turn(readings, turned.rows(), pattern.marker_bits);
+    for (Reading& one : readings) {  // as they read after Lattice::quarter_turned()
+      const int bits = pattern.marker_bits;
+      std::vector<float> modules;
+      for (int v = 0; v < bits; ++v)
+        for (int u = 0; u < bits; ++u) modules.push_back(one.module[std::size_t((bits - 1 - u) * bits + v)]);
+      one = {turned.rows() - 2 - one.row, one.column, std::move(modules)};
+    }
     turned = turned.quarter_turned();
   }
   const auto place = judge.verdict();

@@ -78,17 +78,6 @@ void smooth_columns(const ImageView& picture, int y, std::vector<std::uint16_t>&
   sum.end()[-1] = sum.end()[-2] = sum.end()[-3];
 }
 
-// Every second pixel of every second row after the binomial filter 1 4 6 4 1; the edges repeat.
-std::vector<std::uint8_t> half_of(const ImageView& from, int width, int height) {
-  std::vector<std::uint8_t> out(std::size_t(width) * std::size_t(height));
-  std::vector<std::uint16_t> sum(std::size_t(from.width_px) + 4);
-  for (int y = 0; y < height; ++y) {
-    smooth_columns(from, 2 * y, sum);
-    weigh_columns(sum.data(), width, &out[std::size_t(y) * std::size_t(width)]);
-  }
-  return out;
-}
-
 constexpr float kUnit = 16;        // of SmoothPicture
 constexpr float kMinContrast = 6;  // grey levels: less is not told from noise and texture
 // Mixed derivative at a corner of contrast 1 after the smoothing, as hessian_row() scales it.
@@ -240,10 +229,17 @@ bool look_around(const SmoothPicture& picture, float radius, Saddle& saddle) {
 GreyPyramid::GreyPyramid(const ImageView& picture) {
   if (picture.format == PixelFormat::Grey8) views_.push_back(picture);
   else keep(grey_of(picture), picture.width_px, picture.height_px);
+  // Every second pixel of every second row after the binomial filter 1 4 6 4 1; the edges repeat.
   while (std::min(views_.back().width_px, views_.back().height_px) >= 2 * kMinSidePx) {
-    const int width = (views_.back().width_px + 1) / 2;
-    const int height = (views_.back().height_px + 1) / 2;
-    keep(half_of(views_.back(), width, height), width, height);
+    const ImageView from = views_.back();
+    const int width = (from.width_px + 1) / 2, height = (from.height_px + 1) / 2;
+    std::vector<std::uint8_t> half(std::size_t(width) * std::size_t(height));
+    std::vector<std::uint16_t> sum(std::size_t(from.width_px) + 4);
+    for (int y = 0; y < height; ++y) {
+      smooth_columns(from, 2 * y, sum);
+      weigh_columns(sum.data(), width, &half[std::size_t(y) * std::size_t(width)]);
+    }
+    keep(std::move(half), width, height);
   }
 }
 

@@ -38,7 +38,7 @@ struct YamlFields {
 
 Result<YamlFields> parse_yaml_fields(std::string_view text);
 
-inline Error wrong(Literal what, std::string_view field) { return Error{Errc::InvalidInput, what}.at(field); }
+inline Error wrong(Literal what, std::string_view field) { return invalid(what).at(field); }
 
 // One thing's names in different tools, the usual one first.
 using FieldNames = std::array<std::string_view, 3>;

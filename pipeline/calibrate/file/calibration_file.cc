@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iomanip>
 #include <memory_resource>
 #include <span>
 #include <sstream>
-#include <string>
 #include <system_error>
 #include <utility>
 
@@ -53,7 +51,7 @@ Result<double> number_or_zero(const YamlFields& fields, std::string_view name) {
 // No field: nobody knows. A number would be no words of ours.
 Result<std::string> words_or_empty(const YamlFields& fields, std::string_view name) {
   if (fields.numbers.contains(name))
-    return Error{Errc::InvalidInput, "a camera is named in words, not by a number alone"}.at(name);
+    return invalid("a camera is named in words, not by a number alone").at(name);
   const auto found = fields.words.find(name);
   return found == fields.words.end() ? std::string() : found->second;
 }
@@ -121,17 +119,19 @@ struct CameraInfo {
   double offset = 0;    // minus the distance from the left camera along the rows, metres
 };
 
-Result<void> read_model(const YamlFields& fields) {
+Result<CameraInfo> read_info(const YamlFields& fields, const CalibrationHints& hints) {
+  CameraInfo info;
+  RELIEVO_TRY(read_size(fields, hints, info.camera));
+  RELIEVO_TRY(read_camera_matrix(fields, {"camera_matrix"}, info.camera));
   const auto model = fields.words.find("distortion_model");
   if (model == fields.words.end())
     return wrong("this field is missing; the file is damaged or no camera_info", "distortion_model");
   if (model->second != "plumb_bob" && model->second != "rational_polynomial")
     return Error{Errc::Unsupported, "this lens model is not known here; calibrate with plumb_bob"}.at(
         "distortion_model");
-  return {};
-}
-
-Result<void> read_projection(const YamlFields& fields, CameraInfo& info) {
+  RELIEVO_TRY(read_distortion(fields, {"distortion_coefficients"}, info.camera));
+  RELIEVO_TRY_ASSIGN(const YamlMatrix* r, find_matrix(fields, {"rectification_matrix"}, 3, 3));
+  std::ranges::copy(r->values, info.rectified_from_camera.m);
   RELIEVO_TRY_ASSIGN(const YamlMatrix* matrix, find_matrix(fields, {"projection_matrix"}, 3, 4));
   const auto& p = matrix->values;
   const bool form = p[1] == 0 && p[4] == 0 && p[8] == 0 && p[9] == 0 && p[10] == 1 && p[11] == 0 && p[0] > 0;
@@ -143,18 +143,6 @@ Result<void> read_projection(const YamlFields& fields, CameraInfo& info) {
                  "projection_matrix");
   info.focal_px = p[0];
   info.offset = p[3] / p[0];
-  return {};
-}
-
-Result<CameraInfo> read_info(const YamlFields& fields, const CalibrationHints& hints) {
-  CameraInfo info;
-  RELIEVO_TRY(read_size(fields, hints, info.camera));
-  RELIEVO_TRY(read_camera_matrix(fields, {"camera_matrix"}, info.camera));
-  RELIEVO_TRY(read_model(fields));
-  RELIEVO_TRY(read_distortion(fields, {"distortion_coefficients"}, info.camera));
-  RELIEVO_TRY_ASSIGN(const YamlMatrix* r, find_matrix(fields, {"rectification_matrix"}, 3, 3));
-  std::ranges::copy(r->values, info.rectified_from_camera.m);
-  RELIEVO_TRY(read_projection(fields, info));
   return info;
 }
 
@@ -228,7 +216,7 @@ Result<StereoCalibration> read_camera_infos(const YamlFields& one, const YamlFie
 
 Result<YamlFields> fields_of(std::string_view text) {
   if (text.size() > kMaxCalibrationFileBytes)
-    return Error{Errc::InvalidInput, "too large for a calibration; give a file such as rig.yml"};
+    return invalid("too large for a calibration; give a file such as rig.yml");
   return parse_yaml_fields(text);
 }
 
@@ -255,14 +243,9 @@ Result<YamlFields> fields_in(const std::filesystem::path& file) {
   return in_file(file.native(), fields_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
 }
 
-// Is this half of a calibration, whose other half is in another file?
-bool is_half(const YamlFields& fields) {
-  return is_camera_info(fields) || has_stereo_cameras(fields) != has_stereo_relation(fields);
-}
-
 Result<StereoCalibration> read_one(const YamlFields& fields, const CalibrationHints& hints) {
   if (is_camera_info(fields))
-    return Error{Errc::InvalidInput, "is one camera's half of a ROS calibration; give left and right"};
+    return invalid("is one camera's half of a ROS calibration; give left and right");
   return checked(read_stereo_yaml(fields, fields, hints), hints, !fields.numbers.contains("image_width"));
 }
 
@@ -273,8 +256,8 @@ Result<StereoCalibration> read_pair(const YamlFields& one, const YamlFields& oth
   const YamlFields& cameras = has_stereo_cameras(one) ? one : other;
   const YamlFields& relation = has_stereo_relation(one) ? one : other;
   if (&cameras == &relation)
-    return Error{Errc::InvalidInput,
-                 "these two files do not belong together; give intrinsics and extrinsics, or left and right"};
+    return invalid(
+        "these two files do not belong together; give intrinsics and extrinsics, or left and right");
   return checked(read_stereo_yaml(cameras, relation, hints), hints, !cameras.numbers.contains("image_width"));
 }
 
@@ -327,8 +310,9 @@ Result<StereoCalibration> read_calibration(const std::filesystem::path& file, co
                                            const std::filesystem::path& named) {
   RELIEVO_TRY_ASSIGN(const YamlFields fields, fields_in(file));
   const std::filesystem::path other = named.empty() ? partner_of(file) : named;
+  const bool half = is_camera_info(fields) || has_stereo_cameras(fields) != has_stereo_relation(fields);
   // A rig.yml that was cut looks like half of a pair, too; its name tells.
-  if (named.empty() && (!is_half(fields) || (other.empty() && !is_camera_info(fields))))
+  if (named.empty() && (!half || (other.empty() && !is_camera_info(fields))))
     return in_file(file.native(), read_one(fields, hints));
   std::error_code missing;
   if (other.empty() || (named.empty() && !std::filesystem::exists(other, missing)))

@@ -15,9 +15,7 @@ namespace {
 constexpr int kDeepest = 32;
 constexpr int kMostCells = 4096;
 
-Error at_line(std::size_t line, Literal what) {
-  return Error{Errc::InvalidInput, what}.at("line " + std::to_string(line));
-}
+Error at_line(std::size_t line, Literal what) { return invalid(what).at("line " + std::to_string(line)); }
 
 // One event of libyaml; its memory goes with it.
 class Event {
@@ -110,7 +108,7 @@ class Reader {
       if (parser_.error == YAML_MEMORY_ERROR)
         return Error{Errc::OutOfMemory, "there is not enough memory to read this file"};
       if (parser_.error == YAML_READER_ERROR)
-        return Error{Errc::InvalidInput, "holds bytes that are no text; give a calibration such as rig.yml"}
+        return invalid("holds bytes that are no text; give a calibration such as rig.yml")
             .at("byte " + std::to_string(parser_.problem_offset));
       return at_line(line, "is no YAML here; the file was cut short or damaged, copy it again");
     }
@@ -229,19 +227,18 @@ class Reader {
 
 Result<YamlFields> parse_yaml_fields(std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
-    return Error{Errc::InvalidInput, "holds bytes that are no text; give a calibration such as rig.yml"};
+    return invalid("holds bytes that are no text; give a calibration such as rig.yml");
   const auto last = text.find_last_not_of(" \t\r");
-  if (last == std::string_view::npos)
-    return Error{Errc::InvalidInput, "the calibration is empty; calibrate again"};
+  if (last == std::string_view::npos) return invalid("the calibration is empty; calibrate again");
   // YAML would take the beginning of a number for all of it.
   if (text[last] != '\n' && text[last] != ']' && text[last] != '}')
-    return Error{Errc::InvalidInput, "ends inside a line; the file was cut short, copy it again"};
+    return invalid("ends inside a line; the file was cut short, copy it again");
   // OpenCV's first line is no YAML.
   std::size_t skipped = 0;
   if (text.starts_with("%YAML:")) {
     const auto end = text.find('\n');
     if (end == std::string_view::npos)
-      return Error{Errc::InvalidInput, "ends inside a line; the file was cut short, copy it again"};
+      return invalid("ends inside a line; the file was cut short, copy it again");
     text.remove_prefix(end + 1);
     skipped = 1;
   }

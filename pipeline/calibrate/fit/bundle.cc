@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -13,7 +12,6 @@
 #include <Eigen/SVD>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline::bundle {
 namespace {
@@ -191,14 +189,6 @@ Problem stepped(const Problem& p, const Normal& n, double damping) {
   return moved;
 }
 
-void keep_covariance(Problem& p, const Normal& n) {
-  p.information = n.a;
-  for (const ViewTerms& of_view : n.views) p.information -= eliminated<6, kGlobals>(of_view.c, of_view.b);
-  p.covariance = inverted<kGlobals>(p.information);
-  for (int i = 0; i < kGlobals; ++i)
-    if (!p.free[std::size_t(i)]) p.covariance(i, i) = 0;
-}
-
 // Of one view alone, without what is known beforehand.
 Normal linearise_alone(const Problem& rig, const View& view) {
   Problem one = rig;
@@ -283,7 +273,12 @@ bool solve(Problem& problem) {
     if (gain <= kSmallGain * normal.cost && damping < kFirm) break;
   }
   problem.squared_px = normal.squared;
-  keep_covariance(problem, normal);
+  problem.information = normal.a;
+  for (const ViewTerms& of_view : normal.views)
+    problem.information -= eliminated<6, kGlobals>(of_view.c, of_view.b);
+  problem.covariance = inverted<kGlobals>(problem.information);
+  for (int i = 0; i < kGlobals; ++i)
+    if (!problem.free[std::size_t(i)]) problem.covariance(i, i) = 0;
   return std::isfinite(normal.cost) && problem.covariance.allFinite();
 }
 

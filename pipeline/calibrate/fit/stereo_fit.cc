@@ -3,7 +3,6 @@
 #include "pipeline/calibrate/fit/stereo_fit.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "hal/base/assert.h"
 

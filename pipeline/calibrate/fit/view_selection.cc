@@ -3,14 +3,12 @@
 #include "pipeline/calibrate/fit/stereo_fit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/calibrate/fit/bundle.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -34,16 +32,6 @@ double chi_square(double x, int degrees) {
   double sum = 1;
   for (int k = 1; k < degrees / 2; ++k) sum += term *= x / 2 / k;
   return 1 - std::exp(-x / 2) * sum;
-}
-
-// The best share of a normal sample looks calmer than the sample is: the factor that mends it
-// (Croux and Haesbroeck 1999).
-double trimming_factor(double share) {
-  if (share >= 0.999) return 1;
-  double low = 0;
-  double high = 100;
-  for (int i = 0; i < 60; ++i) (chi_square((low + high) / 2, 6) < share ? low : high) = (low + high) / 2;
-  return share / chi_square(low, 8);
 }
 
 // Paulson's normal deviate of an F ratio.
@@ -77,8 +65,12 @@ double excess_of(const CameraFits& cameras, const StereoFit& fit) {
 
 // Variance of one degree of freedom of the disagreement.
 double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pairs) {
-  const double used = double(fit.paired.size());
-  const double mended = trimming_factor(used / double(pairs));
+  const double used = double(fit.paired.size()), share = used / double(pairs);
+  // The best share of a normal sample looks calmer than the sample is: the factor that mends it
+  // (Croux and Haesbroeck 1999).
+  double low = 0, high = 100;
+  for (int i = 0; i < 60; ++i) (chi_square((low + high) / 2, 6) < share ? low : high) = (low + high) / 2;
+  const double mended = share >= 0.999 ? 1 : share / chi_square(low, 8);
   return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
 }
 
@@ -157,8 +149,10 @@ Half concentrate(const CameraFits& cameras, std::span<const int> pairs, Pose rel
   return found;
 }
 
-// The halves that every view alone leads to, the calmest first, each once.
-std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pairs, std::size_t half) {
+// The misses take each camera's lens as its own boards gave it; the last word has the whole fit.
+bool best_half(const CameraFits& cameras, std::span<const int> pairs, StereoFit& best) {
+  constexpr std::size_t kFinalists = 3;
+  const std::size_t half = pairs.size() / 2 + 1;
   const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
   std::vector<Half> halves;
   for (std::size_t s = 0; s < pairs.size(); s += stride) {
@@ -166,15 +160,7 @@ std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pair
     const bool known = std::ranges::any_of(halves, [&](const Half& h) { return h.places == one.places; });
     if (!known) halves.push_back(std::move(one));
   }
-  std::ranges::stable_sort(halves, [](const Half& a, const Half& b) { return a.misfit_px2 < b.misfit_px2; });
-  return halves;
-}
-
-// The misses take each camera's lens as its own boards gave it; the last word has the whole fit.
-bool best_half(const CameraFits& cameras, std::span<const int> pairs, StereoFit& best) {
-  constexpr std::size_t kFinalists = 3;
-  const std::size_t half = pairs.size() / 2 + 1;
-  std::vector<Half> halves = halves_of(cameras, pairs, half);
+  std::ranges::stable_sort(halves, {}, &Half::misfit_px2);
   halves.resize(std::min(halves.size(), kFinalists));
   double least_excess = 0;
   bool found = false;
@@ -270,27 +256,7 @@ ChangePoint change_point(std::span<const double> excess, double spread_px2) {
   return {int(at) - 1, int(first) - 1, int(last) - 1};
 }
 
-// Views on the other side of a camera's move belong to another rig, even if some seem to agree.
-void keep_one_side(std::span<const int> pairs, int last_before, std::vector<int>& used) {
-  const int border = pairs[std::size_t(last_before)];
-  const auto split = std::upper_bound(used.begin(), used.end(), border);
-  if (split - used.begin() >= used.end() - split) used.erase(split, used.end());
-  else used.erase(used.begin(), split);
-}
-
 using Direction = Eigen::Matrix<double, 6, 3>;
-
-Direction turned_camera(const Pose& relation) {
-  Direction turn;
-  turn << Eigen::Matrix3d::Identity(), -cross(relation.translation_mm);
-  return turn;
-}
-
-Direction carried_board() {
-  Direction carry;
-  carry << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
-  return carry;
-}
 
 // The least misfit with a turn of the camera, or else a shift of the board, free in every pair.
 double misfit_but(const CameraFits& cameras, std::span<const int> pairs, Pose relation, bool camera_turned) {
@@ -298,13 +264,15 @@ double misfit_but(const CameraFits& cameras, std::span<const int> pairs, Pose re
   constexpr double kFirm = 1e-9;  // what the story leaves open of the relation stays as it is
   double cost = 0;
   for (int i = 0; i <= kSteps; ++i) {
+    Direction turned, carried;
+    turned << Eigen::Matrix3d::Identity(), -cross(relation.translation_mm);
+    carried << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
     Matrix6d sum = Matrix6d::Zero();
     Vector6d pull = Vector6d::Zero();
     cost = 0;
     for (const int pair : pairs) {
       const Miss miss = miss_of(cameras, pair, relation);
-      const Direction excused =
-          camera_turned ? Direction(miss.by_step * turned_camera(relation)) : carried_board();
+      const Direction excused = camera_turned ? Direction(miss.by_step * turned) : carried;
       const Direction weighted = miss.weight * excused;
       const Eigen::Matrix3d inner = excused.transpose() * weighted;
       const Matrix6d weight = miss.weight - weighted * inner.ldlt().solve(weighted.transpose());
@@ -333,7 +301,12 @@ bool select_views(const CameraFits& cameras, std::span<const int> pairs, Selecti
   out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(used.size() - 1));
   const double spread = std::max(out.spread_px2, cameras.noise_px2());
   out.moved = change_point(out.excess, spread);
-  if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, used);
+  if (out.moved.likeliest >= 0) {
+    // Views on the other side of a camera's move belong to another rig, even if some seem to agree.
+    const auto split = std::ranges::upper_bound(used, pairs[std::size_t(out.moved.likeliest)]);
+    if (split - used.begin() >= used.end() - split) used.erase(split, used.end());
+    else used.erase(used.begin(), split);
+  }
   // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
   // word has the slip's weight, so that a slip does not bend a lens.
   return fit_stereo(cameras, used, chosen.problem.right_from_left, spread / cameras.noise_px2(), &chosen,

@@ -10,7 +10,6 @@
 #include "hal/base/assert.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/live/view_planner.h"
-#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -31,15 +30,6 @@ double rms_px(bundle::Problem rig, const BoardCorners& left, const BoardCorners&
   return lay_board(rig, left, right) ? std::sqrt(2 * rig.squared_px / rig.residuals) : 1e9;
 }
 
-// True where the pair fits the calibration far better with left and right exchanged than as it is; the
-// two are in pair_order().
-bool is_exchanged(const StereoCalibration& calibration, const BoardPattern& pattern, const BoardCorners& left,
-                  const BoardCorners& right) {
-  const bundle::Problem rig = rig_problem(calibration, pattern);
-  const double as_given = rms_px(rig, left, right);
-  return as_given > kSuspectPx && rms_px(rig, right, left) < kFarBetter * as_given;
-}
-
 constexpr int kLeastCorners = 12;  // of a ChArUco board that both cameras see
 constexpr double kLeastCharucoShare = 0.3;
 
@@ -56,12 +46,6 @@ double moved_px(const BoardCorners& before, BoardCorners now, const BoardPattern
   return count > 0 ? std::sqrt(sum / count) : 1e9;
 }
 
-int seen_in_both(const BoardCorners& left, const BoardCorners& right) {
-  int count = 0;
-  for (std::size_t i = 0; i < left.size(); ++i) count += seen(left[i]) && seen(right[i]) ? 1 : 0;
-  return count;
-}
-
 // The board's squares are not as large as was said, which no further view puts right; few views know the
 // baseline less well.
 bool is_of_another_size(const CalibrationQuality& q) {
@@ -71,30 +55,12 @@ bool is_of_another_size(const CalibrationQuality& q) {
                                                kSigmas * q.uncertainty.parameters.baseline_mm;
 }
 
-// At kFaceMm, between the distances for which it was computed, along a straight line.
-double error_of(const CalibrationUncertainty& uncertainty) {
-  constexpr double kPlace = (kFaceMm - kFirstDepthMm) / kDepthStepMm;
-  constexpr auto kBelow = std::size_t(kPlace);
-  constexpr double kShare = kPlace - double(kBelow);
-  return (1 - kShare) * uncertainty.depth[kBelow].sigma_mm + kShare * uncertainty.depth[kBelow + 1].sigma_mm;
-}
-
 // One camera a thread.
 template <typename T, typename Work>
 std::array<Result<T>, 2> for_both(ThreadPool& pool, const Work& work) {
   std::array<Result<T>, 2> done{T{}, T{}};
-  pool.for_each_band(2, 2, [&](int begin, int end, int) {
-    for (int eye = begin; eye < end; ++eye) done[std::size_t(eye)] = work(std::size_t(eye));
-  });
+  pool.for_each(2, 2, [&](int eye) { done[std::size_t(eye)] = work(std::size_t(eye)); });
   return done;
-}
-
-Result<void> check_sizes(const ImageView& left, const ImageView& right) {
-  if (left.empty() || right.empty()) return Error{Errc::InvalidInput, "a pair without pictures"};
-  if (left.width_px != right.width_px || left.height_px != right.height_px)
-    return Error{Errc::InvalidInput,
-                 "the two cameras give pictures of different sizes: set both to one mode"};
-  return {};
 }
 
 }  // namespace
@@ -150,13 +116,11 @@ void ViewCollector::give_up_target() {
 
 Result<void> LiveOptions::check() const {
   const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
-  if (!within(goal_mm, 0.001, 100))
-    return Error{Errc::InvalidInput, "the goal must be 0.001 to 100 mm"}.at("goal_mm");
-  if (!within(full_bar, 0, 1))
-    return Error{Errc::InvalidInput, "a coverage bar goes from 0 to 1"}.at("full_bar");
+  if (!within(goal_mm, 0.001, 100)) return invalid("the goal must be 0.001 to 100 mm").at("goal_mm");
+  if (!within(full_bar, 0, 1)) return invalid("a coverage bar goes from 0 to 1").at("full_bar");
   if (min_views < kMinBoardPairs || max_views < min_views || max_views > kMaxBoardPairs)
-    return Error{Errc::InvalidInput, "wants 5 <= min_views <= max_views <= 500"}.at("min_views, max_views");
-  if (!within(plateau_gain, 0, 0.5)) return Error{Errc::InvalidInput, "must be 0 to 0.5"}.at("plateau_gain");
+    return invalid("wants 5 <= min_views <= max_views <= 500").at("min_views, max_views");
+  if (!within(plateau_gain, 0, 0.5)) return invalid("must be 0 to 0.5").at("plateau_gain");
   return {};
 }
 
@@ -165,7 +129,7 @@ Result<ViewCollector> ViewCollector::begin(const BoardPattern& pattern, int widt
   RELIEVO_TRY(pattern.check());
   RELIEVO_TRY(options.check());
   if (width_px < 16 || height_px < 16 || width_px > 8192 || height_px > 8192)
-    return Error{Errc::InvalidInput, "pictures must have 16 to 8192 pixels a side"};
+    return invalid("pictures must have 16 to 8192 pixels a side");
   return ViewCollector(pattern, width_px, height_px, options);
 }
 
@@ -192,11 +156,11 @@ Result<void> ViewCollector::check(const PairDetection& pair) const {
   const auto corners = std::size_t(input_.pattern.corners());
   for (const BoardDetection& one : pair.seen)
     if (!one.corners.empty() && one.corners.size() != corners)
-      return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
-          "pair " + std::to_string(state_.pairs + 1));
+      return invalid("a board with another number of corners than the pattern")
+          .at("pair " + std::to_string(state_.pairs + 1));
   if (last_ && pair.at <= last_->at)
-    return Error{Errc::InvalidInput, "pairs must come in the order of their times"}.at(
-        "pair " + std::to_string(state_.pairs + 1));
+    return invalid("pairs must come in the order of their times")
+        .at("pair " + std::to_string(state_.pairs + 1));
   return {};
 }
 
@@ -215,12 +179,19 @@ PairVerdict ViewCollector::judge(const PairDetection& pair) const {
   if (left.empty()) return PairVerdict::LeftMissesIt;
   if (right.empty()) return PairVerdict::RightMissesIt;
   const double least = std::max<double>(kLeastCorners, kLeastCharucoShare * input_.pattern.corners());
-  if (seen_in_both(left, right) < std::min<double>(least, input_.pattern.corners()))
-    return PairVerdict::NoBoard;
+  int in_both = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) in_both += seen(left[i]) && seen(right[i]) ? 1 : 0;
+  if (in_both < std::min<double>(least, input_.pattern.corners())) return PairVerdict::NoBoard;
   const bool known = last_ && !last_->seen[0].corners.empty() && !last_->seen[1].corners.empty();
   if (!known || std::max(state_.moved_px[0], state_.moved_px[1]) > kStillPx) return PairVerdict::Moving;
   if (std::max(pair.seen[0].edge_px, pair.seen[1].edge_px) > kSharpPx) return PairVerdict::Blurred;
-  if (newest_ && is_exchanged(newest_->calibration, input_.pattern, left, right)) return PairVerdict::Swapped;
+  if (newest_) {
+    // Does the pair, which is in pair_order(), fit far better with left and right exchanged than as it is?
+    const bundle::Problem rig = rig_problem(newest_->calibration, input_.pattern);
+    const double as_given = rms_px(rig, left, right);
+    if (as_given > kSuspectPx && rms_px(rig, right, left) < kFarBetter * as_given)
+      return PairVerdict::Swapped;
+  }
   if (!is_new()) return PairVerdict::AlreadyHave;
   return PairVerdict::Taken;
 }
@@ -252,7 +223,7 @@ Result<void> ViewCollector::take(BoardCorners left, BoardCorners right) {
   RELIEVO_ASSERT(state_.verdict == PairVerdict::Taken);
   const auto corners = std::size_t(input_.pattern.corners());
   if (left.size() != corners || right.size() != corners)
-    return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"};
+    return invalid("a board with another number of corners than the pattern");
   pair_order(left, right, input_.pattern);
   ViewParameters& view = taken_.emplace_back();
   for (std::size_t eye = 0; eye < 2; ++eye) {
@@ -264,7 +235,23 @@ Result<void> ViewCollector::take(BoardCorners left, BoardCorners right) {
   state_.bars = lesser(coverage_[0].bars(), coverage_[1].bars());
   state_.views = int(taken_.size());
   input_.views.push_back({std::to_string(state_.views), std::move(left), std::move(right)});
-  recalculate();
+  // Views too few or too alike to determine the cameras are no error here: more will come.
+  if (state_.views >= kMinBoardPairs) {
+    if (auto made = calibrate(input_)) {
+      newest_ = *std::move(made);
+      // At kFaceMm, between the distances for which it was computed, along a straight line.
+      constexpr double kPlace = (kFaceMm - kFirstDepthMm) / kDepthStepMm;
+      constexpr auto kBelow = std::size_t(kPlace);
+      constexpr double kShare = kPlace - double(kBelow);
+      const auto& depth = newest_->quality.uncertainty.depth;
+      state_.error_mm = (1 - kShare) * depth[kBelow].sigma_mm + kShare * depth[kBelow + 1].sigma_mm;
+      state_.disagreeing = state_.views - newest_->quality.used;
+    } else {
+      CalibratorInput exchanged = input_;
+      for (BoardView& board : exchanged.views) std::swap(board.left, board.right);
+      swapped_ = calibrate(exchanged).has_value();
+    }
+  }
   given_up_.clear();
   aim();
   advise();
@@ -277,21 +264,6 @@ void ViewCollector::pass(bool left_whole, bool right_whole) {
                    : right_whole ? PairVerdict::LeftMissesIt
                                  : PairVerdict::NoBoard;
   advise();
-}
-
-// Views too few or too alike to determine the cameras are no error here: more will come.
-void ViewCollector::recalculate() {
-  if (state_.views < kMinBoardPairs) return;
-  auto made = calibrate(input_);
-  if (made) {
-    newest_ = *std::move(made);
-    state_.error_mm = error_of(newest_->quality.uncertainty);
-    state_.disagreeing = state_.views - newest_->quality.used;
-  } else {
-    CalibratorInput exchanged = input_;
-    for (BoardView& view : exchanged.views) std::swap(view.left, view.right);
-    swapped_ = calibrate(exchanged).has_value();
-  }
 }
 
 // The next target, or the end.
@@ -341,14 +313,15 @@ void LiveCalibration::restart() {
 
 Result<void> LiveCalibration::look(const ImageView& left, const ImageView& right,
                                    std::chrono::nanoseconds at) {
-  RELIEVO_TRY(check_sizes(left, right));
+  if (left.empty() || right.empty()) return invalid("a pair without pictures");
+  if (left.width_px != right.width_px || left.height_px != right.height_px)
+    return invalid("the two cameras give pictures of different sizes: set both to one mode");
   if (!collector_) {
     RELIEVO_TRY_ASSIGN(collector_, ViewCollector::begin(pattern_, left.width_px, left.height_px, options_));
   }
   const CalibratorInput& views = collector_->views();
   if (left.width_px != views.width_px || left.height_px != views.height_px)
-    return Error{Errc::InvalidInput,
-                 "pictures of another size than before: do not change the cameras' mode, or begin again"};
+    return invalid("pictures of another size than before: do not change the cameras' mode, or begin again");
   const std::array<ImageView, 2> pictures{left, right};
   auto seen =
       for_both<BoardDetection>(*pool_, [&](std::size_t eye) { return tracker_[eye].look(pictures[eye]); });

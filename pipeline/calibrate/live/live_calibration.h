@@ -79,7 +79,6 @@ class ViewCollector {
   Result<void> check(const PairDetection& pair) const;
   PairVerdict judge(const PairDetection& pair) const;
   bool is_new() const;
-  void recalculate();
   void aim();
   void advise();
   LiveAdvice advice_for_verdict();

@@ -70,15 +70,6 @@ Eigen::Matrix3d tilted(int tilt) {
 
 Eigen::Matrix3d turned(double by_rad) { return bundle::rotation_of(by_rad * Eigen::Vector3d::UnitZ()); }
 
-CandidatePose seen_in(const Problem& rig, std::size_t number, const bundle::Pose& pose) {
-  CandidatePose candidate{number, pose, {}};
-  for (const std::size_t eye : {0U, 1U})
-    for (int i = 0; i < rig.pattern.corners(); ++i)
-      candidate.corners[eye].push_back(
-          bundle::project(rig.camera[eye], pose_in(rig, eye, pose) * bundle::on_board(rig.pattern, i)));
-  return candidate;
-}
-
 // A view is new that differs by so much (distance_between()); a candidate by more, since nobody hits it
 // exactly.
 constexpr double kNewDistance = 0.2, kSafelyNew = 1.5;
@@ -108,33 +99,6 @@ DepthByGlobals depth_by_globals(const Problem& rig, const GlobalVector& unit) {
 double variance_of(const DepthByGlobals& by, const Globals& even_information) {
   const Eigen::Matrix<double, bundle::kGlobals, 9> solved = even_information.ldlt().solve(by.transpose());
   return (by * solved).trace() / 9;
-}
-
-ViewTarget target_of(const CandidatePose& pose, const BoardParameters& left, const BoardPattern& pattern) {
-  ViewTarget target;
-  target.at = axes_of(left);
-  target.tolerance = kTolerance;
-  target.outlines = {outline_of(pose.corners[0], pattern), outline_of(pose.corners[1], pattern)};
-  return target;
-}
-
-int quarter_turns_of(const CalibratorInput& input) {
-  const BoardOutline outline = outline_of(input.views.back().left, input.pattern);
-  const double angle = std::atan2(outline[1].y - outline[0].y, outline[1].x - outline[0].x);
-  return int(std::lround(angle / (0.5 * std::numbers::pi)));
-}
-
-// Where the board stands, from the left camera alone; good enough to start from.
-bundle::Pose guessed_pose(const Problem& rig, const BoardCorners& left) {
-  Problem one;
-  one.pattern = rig.pattern;
-  one.camera[0].width_px = rig.camera[0].width_px;
-  one.camera[0].height_px = rig.camera[0].height_px;
-  one.views.emplace_back(&left, nullptr, bundle::Pose{});
-  bundle::first_guess(one);
-  bundle::Pose pose = one.views[0].left_from_board;
-  pose.translation_mm.z() *= rig.camera[0].focal_px.x / one.camera[0].focal_px.x;
-  return pose;
 }
 
 // The calibration's used views (the first of the input's) as a solved problem: it knows its information and
@@ -167,8 +131,12 @@ std::vector<CandidatePose> candidate_poses(const bundle::Problem& rig, double di
     ++number;
     bundle::Pose pose;
     const Eigen::Matrix3d rotation = tilted(tilt) * turned(turn_rad + quarter_turns * 0.5 * std::numbers::pi);
-    if (place(rig, rotation, distance * distance_mm, across, down, pose))
-      poses.push_back(seen_in(rig, number, pose));
+    if (!place(rig, rotation, distance * distance_mm, across, down, pose)) return;
+    CandidatePose& candidate = poses.emplace_back(CandidatePose{number, pose, {}});
+    for (const std::size_t eye : {0U, 1U})
+      for (int i = 0; i < rig.pattern.corners(); ++i)
+        candidate.corners[eye].push_back(
+            bundle::project(rig.camera[eye], pose_in(rig, eye, pose) * bundle::on_board(rig.pattern, i)));
   };
   for (const double distance : kDistances)
     for (int tilt = 0; tilt < kTilts; ++tilt) {
@@ -201,7 +169,9 @@ bool ViewPlanner::update(const CalibratorInput& input, const CalibratorOutput& n
   error_mm_ = error_mm;
   taken_.assign(taken.begin(), taken.end());
   coverage_ = coverage;
-  quarter_turns_ = quarter_turns_of(input);
+  const BoardOutline outline = outline_of(input.views.back().left, input.pattern);
+  const double angle = std::atan2(outline[1].y - outline[0].y, outline[1].x - outline[0].x);
+  quarter_turns_ = int(std::lround(angle / (0.5 * std::numbers::pi)));
   return true;
 }
 
@@ -255,7 +225,10 @@ ViewPlan ViewPlanner::plan(std::span<const std::size_t> excluded) const {
     plan.best_bar_gain = std::max(plan.best_bar_gain, bars);
     if (plan.best && worth(error, bars) <= plan.best_worth) continue;
     plan.best_worth = worth(error, bars);
-    plan.best = {target_of(pose, view[0], rig_.pattern), pose.number};
+    const auto outline = [&](std::size_t eye) { return outline_of(pose.corners[eye], rig_.pattern); };
+    plan.best = PlannedView{
+        {.at = axes_of(view[0]), .tolerance = kTolerance, .outlines = std::array{outline(0), outline(1)}},
+        pose.number};
   }
   return plan;
 }
@@ -269,7 +242,16 @@ Problem rig_problem(const StereoCalibration& calibration, const BoardPattern& pa
 }
 
 bool lay_board(Problem& rig, const BoardCorners& left, const BoardCorners& right) {
-  rig.views.emplace_back(&left, &right, guessed_pose(rig, left));
+  // Where the board stands, from the left camera alone; good enough to start from.
+  Problem one;
+  one.pattern = rig.pattern;
+  one.camera[0].width_px = rig.camera[0].width_px;
+  one.camera[0].height_px = rig.camera[0].height_px;
+  one.views.emplace_back(&left, nullptr, bundle::Pose{});
+  bundle::first_guess(one);
+  bundle::Pose pose = one.views[0].left_from_board;
+  pose.translation_mm.z() *= rig.camera[0].focal_px.x / one.camera[0].focal_px.x;
+  rig.views.emplace_back(&left, &right, pose);
   return bundle::solve_poses(rig);
 }
 

@@ -12,7 +12,6 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/bundle.h"
-#include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 
 namespace relievo::pipeline {
@@ -263,29 +262,6 @@ double coverage(const Fitted& f, bool right) {
   return double(std::ranges::count(covered, true)) / (kGrid * kGrid);
 }
 
-// Median angle between two boards' normals: boards held alike do not determine a focal length.
-double tilt_spread(const std::vector<Eigen::Vector3d>& normals) {
-  std::vector<double> angles;
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    for (std::size_t j = i + 1; j < normals.size(); ++j)
-      angles.push_back(std::acos(std::clamp(normals[i].dot(normals[j]), -1.0, 1.0)) * kDegrees);
-  return angles.empty() ? 0 : median(angles);
-}
-
-// Each camera's boards alone: there nothing that the two cameras do to each other can look like a bend.
-void measure_flatness(const Fitted& f, CalibrationQuality& q) {
-  const BoardBend left = measure_bend(f.cameras.left.problem);
-  const BoardBend right = measure_bend(f.cameras.right.problem);
-  const BoardBend& surer = left.sigma_mm < right.sigma_mm ? left : right;
-  const BoardPattern& pattern = f.cameras.input.pattern;
-  const double size_mm = pattern.square_mm * (std::max(pattern.columns, pattern.rows) - 1);
-  q.board_sag_mm = surer.sag_mm;
-  q.board_sag_sigma_mm = surer.sigma_mm;
-  constexpr double kCertain = 5;
-  q.board_bent =
-      left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > limits::kFlat * size_mm;
-}
-
 void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (const int view : f.cameras.left.views)
     q.views[std::size_t(view)].left_rms_px = f.cameras.left.rms_px(view);
@@ -313,7 +289,12 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
     normals.emplace_back(pose.rotation.col(2));
   }
   q.working_distance_mm = median(distances);
-  q.tilt_spread_deg = tilt_spread(normals);
+  // Between two boards: boards held alike do not determine a focal length.
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    for (std::size_t j = i + 1; j < normals.size(); ++j)
+      angles.push_back(std::acos(std::clamp(normals[i].dot(normals[j]), -1.0, 1.0)) * kDegrees);
+  q.tilt_spread_deg = angles.empty() ? 0 : median(angles);
 }
 
 }  // namespace
@@ -356,7 +337,17 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   if (!q.holds_still || q.used < int(f.pairs.size()))
     q.slip_cause = board_carried_on(f.cameras, f.pairs, fit.problem.right_from_left) ? SlipCause::BoardCarried
                                                                                      : SlipCause::CameraTurns;
-  measure_flatness(f, q);
+  // Each camera's boards alone: there nothing that the two cameras do to each other can look like a bend.
+  const BoardBend left = measure_bend(f.cameras.left.problem);
+  const BoardBend right = measure_bend(f.cameras.right.problem);
+  const BoardBend& surer = left.sigma_mm < right.sigma_mm ? left : right;
+  const BoardPattern& pattern = f.cameras.input.pattern;
+  const double size_mm = pattern.square_mm * (std::max(pattern.columns, pattern.rows) - 1);
+  q.board_sag_mm = surer.sag_mm;
+  q.board_sag_sigma_mm = surer.sigma_mm;
+  constexpr double kCertain = 5;
+  q.board_bent =
+      left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > limits::kFlat * size_mm;
 }
 
 }  // namespace relievo::pipeline

@@ -22,26 +22,6 @@ void say(CalibrationQuality& q, CalibrationVerdict at_best, std::string_view pat
 
 std::string_view name(const CalibrationQuality& q, int view) { return q.views[std::size_t(view)].name; }
 
-void judge_slip(CalibrationQuality& q) {
-  if (q.holds_still) return;
-  say(q, CalibrationVerdict::Usable,
-      "left and right do not hold still relative to each other: they disagree {} times more than the corners' "
-      "noise explains, as {}",
-      {decimal(q.slip_ratio, 1),
-       q.slip_cause == SlipCause::BoardCarried
-           ? "a board does that moves on between two exposures; check the trigger, expose both cameras at the "
-             "same instant, and hold the board still"
-           : "cameras do that turn on their mounts; fasten them, and expose both at the same instant"});
-}
-
-void judge_move(CalibrationQuality& q) {
-  if (q.moved_after < 0) return;
-  say(q, CalibrationVerdict::Usable,
-      "a camera seems to have moved after view {} (somewhere from {} to {}): most later pairs disagree "
-      "with the earlier ones; this holds for the pairs used, calibrate again to know the rig of today",
-      {name(q, q.moved_after), name(q, q.moved_after_first), name(q, q.moved_after_last)});
-}
-
 void judge_board(CalibrationQuality& q) {
   if (q.board_bent)
     say(q, q.board_sag_mm > limits::kWorstSagMm ? CalibrationVerdict::Refuse : CalibrationVerdict::Usable,
@@ -124,8 +104,20 @@ void judge_quality(CalibrationQuality& q) {
         "the shape of a head at {} mm is uncertain by {} mm ({} is the most); tilt the board more, and take "
         "more views",
         {decimal(q.working_distance_mm, 0), decimal(q.shape_sigma_mm, 2), decimal(limits::kWorstShapeMm, 1)});
-  judge_slip(q);
-  judge_move(q);
+  if (!q.holds_still)
+    say(q, Usable,
+        "left and right do not hold still relative to each other: they disagree {} times more than the "
+        "corners' noise explains, as {}",
+        {decimal(q.slip_ratio, 1),
+         q.slip_cause == SlipCause::BoardCarried
+             ? "a board does that moves on between two exposures; check the trigger, expose both cameras at the "
+               "same instant, and hold the board still"
+             : "cameras do that turn on their mounts; fasten them, and expose both at the same instant"});
+  if (q.moved_after >= 0)
+    say(q, Usable,
+        "a camera seems to have moved after view {} (somewhere from {} to {}): most later pairs disagree "
+        "with the earlier ones; this holds for the pairs used, calibrate again to know the rig of today",
+        {name(q, q.moved_after), name(q, q.moved_after_first), name(q, q.moved_after_last)});
   judge_board(q);
   const auto pairs =
       std::ranges::count_if(q.views, [](const ViewQuality& view) { return view.distance_mm > 0; });

@@ -28,12 +28,6 @@ std::vector<Eigen::Vector3d> box(double distance_mm, int layers) {
   return points;
 }
 
-// What is left of the difference when `from` is laid over `to` (rigid motion; one column a point).
-Cloud shape_difference(const Cloud& from, const Cloud& to) {
-  const Eigen::Matrix4d lay = Eigen::umeyama(from, to, false);
-  return ((lay.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>())) - to;
-}
-
 Eigen::VectorXd flat(const Cloud& cloud) {
   return Eigen::Map<const Eigen::VectorXd>(cloud.data(), cloud.size());
 }
@@ -208,8 +202,14 @@ CalibrationUncertainty measure_uncertainty(const RigSpread& spread, double worki
     return Eigen::VectorXd::Constant(1, scale_between(reference, cloud_of(rig, probes)));
   });
   u.scale_percent = 100 * std::sqrt(scale[0]);
-  const Eigen::VectorXd shape = spread.variance(
-      [&](const bundle::Problem& rig) { return flat(shape_difference(cloud_of(rig, probes), reference)); });
+  const Eigen::VectorXd shape = spread.variance([&](const bundle::Problem& rig) {
+    // What is left of the difference when a cloud is laid over the reference by a rigid motion.
+    const Cloud cloud = cloud_of(rig, probes);
+    const Eigen::Matrix4d lay = Eigen::umeyama(cloud, reference, false);
+    return flat(
+        ((lay.topLeftCorner<3, 3>() * cloud).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>())) -
+        reference);
+  });
   u.shape_sigma_mm = std::sqrt(3 * shape.mean());
   u.parameters = parameter_uncertainty(spread);
   return u;

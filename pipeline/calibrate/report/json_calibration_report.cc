@@ -11,11 +11,6 @@
 namespace relievo::pipeline {
 namespace {
 
-const char* word(SlipCause cause) {
-  constexpr std::array kWords{"none", "camera turns", "board carried on between the exposures"};
-  return kWords[std::size_t(cause)];
-}
-
 nlohmann::ordered_json uncertainty_json(const CalibrationUncertainty& u) {
   nlohmann::ordered_json depth = nlohmann::ordered_json::array();
   for (const DepthUncertainty& d : u.depth)
@@ -115,6 +110,7 @@ nlohmann::ordered_json views_json(const CalibratorOutput& out) {
 }  // namespace
 
 std::string calibration_report_json(const CalibrationReport& r) {
+  constexpr std::array kSlipCauses{"none", "camera turns", "board carried on between the exposures"};
   const CalibrationQuality& q = r.output.quality;
   const auto view_name = [&q](int view) -> nlohmann::ordered_json {
     if (view < 0) return nullptr;
@@ -138,7 +134,7 @@ std::string calibration_report_json(const CalibrationReport& r) {
                                          {"coverage_right", q.coverage_right},
                                          {"holds_still", q.holds_still},
                                          {"slip_ratio", q.slip_ratio},
-                                         {"slip_cause", word(q.slip_cause)},
+                                         {"slip_cause", kSlipCauses[std::size_t(q.slip_cause)]},
                                          {"moved_after", view_name(q.moved_after)},
                                          {"moved_after_first", view_name(q.moved_after_first)},
                                          {"moved_after_last", view_name(q.moved_after_last)},

@@ -211,15 +211,6 @@ std::string key_figures(const CalibrationReport& r) {
   return "<section>\n<h2>The figures that matter</h2>\n" + table.html() + "</section>\n";
 }
 
-std::string heading_of(const CalibrationReport& r) {
-  return heading(r.product, "Calibration report",
-                 {escaped(r.made_at), "<bdi>" + escaped(r.source) + "</bdi>",
-                  counted(int(r.output.quality.views.size()), "pair", "pairs") + " of " +
-                      std::to_string(r.output.calibration.left.width_px) + " × " +
-                      std::to_string(r.output.calibration.left.height_px) + " px",
-                  board_words(r.input.pattern)});
-}
-
 constexpr std::string_view kReading =
     "<section class=\"reading\">\n<h2>How to read this</h2>\n<p>The verdict is the worst of its reasons, and "
     "each reason says what to do. One sigma holds in two cases of three, 95 % in nineteen of twenty; all of "
@@ -254,19 +245,19 @@ std::string board_words(const BoardPattern& b) {
 }  // namespace report
 
 std::string calibration_report_html(const CalibrationReport& r) {
-  std::string out = report::heading_of(r);
-  out += report::verdict_section(r);
-  out += report::face_figures(r);
-  out += report::key_figures(r);
-  out += report::kReading;
-  out += "<section>\n<h2>How far it can be trusted</h2>\n" +
-         report::side_by_side(report::depth_chart(r), report::rig_plan(r)) + "</section>\n";
-  out += report::projection_maps(r);
-  out += report::coverage_figure(r);
-  out += report::residual_arrows(r);
-  out += report::view_table(r);
-  out += report::number_tables(r);
-  return report::page("Calibration report: " + r.source, "", out);
+  using namespace report;
+  const CameraIntrinsics& camera = r.output.calibration.left;
+  const std::string top =
+      heading(r.product, "Calibration report",
+              {escaped(r.made_at), "<bdi>" + escaped(r.source) + "</bdi>",
+               counted(int(r.output.quality.views.size()), "pair", "pairs") + " of " +
+                   std::to_string(camera.width_px) + " × " + std::to_string(camera.height_px) + " px",
+               board_words(r.input.pattern)});
+  return page("Calibration report: " + r.source, "",
+              top + verdict_section(r) + face_figures(r) + key_figures(r) + std::string(kReading) +
+                  "<section>\n<h2>How far it can be trusted</h2>\n" +
+                  side_by_side(depth_chart(r), rig_plan(r)) + "</section>\n" + projection_maps(r) +
+                  coverage_figure(r) + residual_arrows(r) + view_table(r) + number_tables(r));
 }
 
 }  // namespace relievo::pipeline

@@ -68,23 +68,6 @@ struct Camera {
   }
 };
 
-void draw_field(Drawing& d, const Plan& plan, const Camera& camera, std::string_view style, double reach_mm) {
-  const std::array<Vec2d, 3> wedge = {plan(camera.left_from_camera.translation_mm),
-                                      plan(camera.rim(plan, false, reach_mm)),
-                                      plan(camera.rim(plan, true, reach_mm))};
-  Strokes field;
-  field.outline(wedge);
-  d.strokes("field " + std::string(style), field);
-}
-
-void draw_camera(Drawing& d, const Plan& plan, const Camera& camera, std::string_view style) {
-  const auto at = [&](double x, double z) { return plan(apply(camera.left_from_camera, plan.place(x, z))); };
-  Strokes body;
-  body.outline(std::array<Vec2d, 4>{at(-16, -6), at(16, -6), at(16, -44), at(-16, -44)});
-  body.outline(std::array<Vec2d, 4>{at(-9, 0), at(9, 0), at(9, -6), at(-9, -6)});
-  d.strokes("camera " + std::string(style), body);
-}
-
 void draw_boards(Drawing& d, const Plan& plan, const CalibrationReport& r) {
   const BoardPattern& board = r.input.pattern;
   const double s = board.square_mm;
@@ -99,23 +82,12 @@ void draw_boards(Drawing& d, const Plan& plan, const CalibrationReport& r) {
   }
 }
 
-void draw_faces(Drawing& d, const Plan& plan) {
-  constexpr double kHalf = kFieldMm / 2;
-  Strokes volume;
-  volume.outline(std::array<Vec2d, 4>{plan(plan.place(-kHalf, kNear)), plan(plan.place(kHalf, kNear)),
-                                      plan(plan.place(kHalf, kFar)), plan(plan.place(-kHalf, kFar))});
-  d.strokes("volume", volume);
-}
-
 // Over everything else, where boards may lie.
-void name_faces(Drawing& d, const Plan& plan) {
+void draw_measures(Drawing& d, const Plan& plan, double baseline_mm) {
   for (const double mm : {kNear, kFar}) {
     const Vec2d at = plan(plan.place(kFieldMm / 2, mm));
     d.text("tick begin halo", {at.x + 6, at.y + 4.5}, figure(mm, 0) + " mm");
   }
-}
-
-void draw_measures(Drawing& d, const Plan& plan, double baseline_mm) {
   const Vec2d a = plan({0, 0, 0});
   const Vec2d b = plan(plan.right_camera());
   d.line("measure", a, b);
@@ -140,14 +112,6 @@ void for_each_used(const CalibrationReport& r, std::size_t eye, const Use& use) 
     if (r.output.quality.views[v].used)
       for (const CornerResidual& corner : r.output.views[v].corners(eye))
         if (seen(corner.at)) use(corner);
-}
-
-// The length below which 95 % of all residuals stay, px.
-double usual_length(const CalibrationReport& r) {
-  std::vector<double> lengths;
-  for (const std::size_t eye : {0U, 1U})
-    for_each_used(r, eye, [&](const CornerResidual& c) { lengths.push_back(std::hypot(c.off.x, c.off.y)); });
-  return lengths.empty() ? 1 : std::max(percentile(lengths, 0.95), 1e-9);
 }
 
 void arrow(Strokes& strokes, Vec2d base, Vec2d by) {
@@ -259,12 +223,6 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double re
   return figure_of(d.svg(), "", caption + ".");
 }
 
-// Against a normal distribution.
-std::string residual_histogram(const CalibrationReport& r) {
-  const double reach = kReach * std::max({deviation(coordinates(r, 0)), deviation(coordinates(r, 1)), 1e-9});
-  return side_by_side(camera_figure(r, 0, reach), camera_figure(r, 1, reach));
-}
-
 }  // namespace
 
 std::string rig_plan(const CalibrationReport& r) {
@@ -275,12 +233,30 @@ std::string rig_plan(const CalibrationReport& r) {
   const Plan plan(c, farthest);
   const std::array<Camera, 2> cameras = {Camera{c.left, {}}, Camera{c.right, inverse(c.right_from_left)}};
   Drawing d(kSize, "The rig from above, to scale: cameras, their fields of view, and the boards");
-  for (const std::size_t eye : {0U, 1U}) draw_field(d, plan, cameras[eye], kCameraStyles[eye], 2 * farthest);
-  draw_faces(d, plan);
+  for (const std::size_t eye : {0U, 1U}) {
+    const Camera& camera = cameras[eye];
+    Strokes field;
+    field.outline(std::array<Vec2d, 3>{plan(camera.left_from_camera.translation_mm),
+                                       plan(camera.rim(plan, false, 2 * farthest)),
+                                       plan(camera.rim(plan, true, 2 * farthest))});
+    d.strokes("field " + std::string(kCameraStyles[eye]), field);
+  }
+  constexpr double kHalf = kFieldMm / 2;  // where faces are
+  Strokes volume;
+  volume.outline(std::array<Vec2d, 4>{plan(plan.place(-kHalf, kNear)), plan(plan.place(kHalf, kNear)),
+                                      plan(plan.place(kHalf, kFar)), plan(plan.place(-kHalf, kFar))});
+  d.strokes("volume", volume);
   draw_boards(d, plan, r);
-  name_faces(d, plan);
   draw_measures(d, plan, r.output.quality.baseline_mm);
-  for (const std::size_t eye : {0U, 1U}) draw_camera(d, plan, cameras[eye], kCameraStyles[eye]);
+  for (const std::size_t eye : {0U, 1U}) {
+    const auto at = [&](double x, double z) {
+      return plan(apply(cameras[eye].left_from_camera, plan.place(x, z)));
+    };
+    Strokes body;
+    body.outline(std::array<Vec2d, 4>{at(-16, -6), at(16, -6), at(16, -44), at(-16, -44)});
+    body.outline(std::array<Vec2d, 4>{at(-9, 0), at(9, 0), at(9, -6), at(-9, -6)});
+    d.strokes("camera " + std::string(kCameraStyles[eye]), body);
+  }
   return figure_of(
       d.svg(), "The rig from above",
       "To scale. The cameras with their fields of view; the boards of the pairs used and, in grey, of those left out; "
@@ -288,16 +264,21 @@ std::string rig_plan(const CalibrationReport& r) {
 }
 
 std::string residual_arrows(const CalibrationReport& r) {
-  const double usual = usual_length(r);
+  std::vector<double> lengths;
+  for (const std::size_t eye : {0U, 1U})
+    for_each_used(r, eye, [&](const CornerResidual& c) { lengths.push_back(std::hypot(c.off.x, c.off.y)); });
+  // Below it 95 % of all residuals stay, px.
+  const double usual = lengths.empty() ? 1 : std::max(percentile(lengths, 0.95), 1e-9);
   const double magnified = rounded_down(kUsualLength * r.output.calibration.left.width_px / usual);
-  std::string lead =
+  const double reach = kReach * std::max({deviation(coordinates(r, 0)), deviation(coordinates(r, 1)), 1e-9});
+  const std::string lead =
       "At every corner of the pairs used, an arrow from where the fit puts it towards where it was seen, " +
       number(magnified, 3) +
       " times as long as it is. They must point everywhere at random: a common "
       "direction in one place is a lens, or a board, that the fit does not describe.";
   return "<section>\n<h2>What is left over</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
          side_by_side(camera_figure(r, 0, magnified, usual), camera_figure(r, 1, magnified, usual)) +
-         residual_histogram(r) + "</section>\n";
+         side_by_side(camera_figure(r, 0, reach), camera_figure(r, 1, reach)) + "</section>\n";
 }
 
 }  // namespace relievo::pipeline::report

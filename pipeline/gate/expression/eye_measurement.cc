@@ -3,10 +3,8 @@
 #include "pipeline/gate/expression/expression_measurement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "pipeline/base/parts.h"
 

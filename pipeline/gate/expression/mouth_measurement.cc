@@ -3,7 +3,6 @@
 #include "pipeline/gate/expression/expression_measurement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -62,17 +61,15 @@ double value(const Profile& p, const FaceWindow& w, double down_mm) {
   return p.value[std::size_t(std::clamp(Relief::nearest(w.row(down_mm)), 0, p.rows - 1))];
 }
 
-double line_strength(const Profile& p, const FaceWindow& w, double down) {
-  return std::min(value(p, w, down - kBesideLineMm), value(p, w, down + kBesideLineMm)) - value(p, w, down);
-}
-
 struct Line {
   double down = 0, strength = -1;
 };
 Line strongest_line(const Profile& p, const FaceWindow& w, double from, double to) {
   Line best;
-  for (double down = from; down <= to; down += FaceWindow::kStepMm)
-    if (const double strength = line_strength(p, w, down); strength > best.strength) best = {down, strength};
+  for (double down = from; down <= to; down += FaceWindow::kStepMm) {
+    const double beside = std::min(value(p, w, down - kBesideLineMm), value(p, w, down + kBesideLineMm));
+    if (const double strength = beside - value(p, w, down); strength > best.strength) best = {down, strength};
+  }
   return best;
 }
 

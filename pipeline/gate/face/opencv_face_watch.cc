@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,11 +21,6 @@ constexpr double kSmallestFace = 0.2;  // width of the smallest face, share of t
 constexpr int kLeastVotes = 4;
 constexpr double kLeanDeg = 22;  // the cascades stand 15 themselves
 constexpr double kDegree = std::numbers::pi / 180;
-
-bool same_face(const FaceBox& a, const FaceBox& b) {
-  return std::hypot(a.centre_px.x - b.centre_px.x, a.centre_px.y - b.centre_px.y) <
-         0.6 * std::max(a.width_px, b.width_px);
-}
 
 }  // namespace
 
@@ -67,8 +63,9 @@ struct FaceWatch::Cascades {
 
   // Keeps the more certain of two that are one face.
   static void add(const FaceBox& hit, FaceHits& hits) {
-    for (int i = 0; i < hits.count; ++i)
-      if (FaceBox& known = hits.hit[std::size_t(i)]; same_face(known, hit)) {
+    for (FaceBox& known : std::span(hits.hit).first(std::size_t(hits.count)))
+      if (std::hypot(known.centre_px.x - hit.centre_px.x, known.centre_px.y - hit.centre_px.y) <
+          0.6 * std::max(known.width_px, hit.width_px)) {
         if (hit.votes > known.votes) known = hit;
         return;
       }
@@ -85,7 +82,7 @@ Result<FaceWatch> FaceWatch::open(const std::string& cascade_folder) {
 
 Result<FaceHits> FaceWatch::look(const Relief& relief) {
   if (relief.width_px <= 0 || relief.height_px <= 0)
-    return Error{Errc::InvalidInput, "a picture without pixels has no face"}.at("face-watch");
+    return invalid("a picture without pixels has no face").at("face-watch");
   try {
     const cv::Mat picture(relief.height_px, relief.width_px, CV_8UC1,
                           const_cast<std::uint8_t*>(relief.grey.data()));

@@ -3,10 +3,8 @@
 #include "pipeline/gate/head/head_measurement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "pipeline/match/region/face_reach.h"

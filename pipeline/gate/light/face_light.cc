@@ -50,13 +50,6 @@ double turned_share(double away_deg) {
   return std::cos(kCheekDeg * kDegree) / std::cos(kCheekDeg * kDegree + turned);
 }
 
-int median_of(const Histogram& counts, int all) {
-  int seen = 0;
-  for (int i = 0; i < 256; ++i)
-    if ((seen += counts[std::size_t(i)]) * 2 >= all) return i;
-  return 255;
-}
-
 constexpr double kHalfMm = 36;    // half the side of the window
 constexpr double kGridMm = 0.38;  // finer pictures are made coarser: smaller blurs are of no account
 constexpr double kLittleMm = 0.7, kMuchMm = 1.4;  // the two blurs that are compared
@@ -225,7 +218,9 @@ FaceLight measure_light(const Relief& relief, const HeadMeasurement& head) {
     }
   if (all < 200) return light;
   light.known = true;
-  const int gloss = median_of(counts, all) + kGlossStep;
+  int middle = 0;  // the median
+  for (int seen = 0; middle < 255 && (seen += counts[std::size_t(middle)]) * 2 < all;) ++middle;
+  const int gloss = middle + kGlossStep;
   for (int i = 0; i < 256; ++i) {
     const double share = double(counts[std::size_t(i)]) / all;
     light.luminance_mean += share * i / 255.0;

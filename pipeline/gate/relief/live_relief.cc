@@ -81,19 +81,6 @@ struct Found {
   std::uint16_t name = 0;
 };
 
-// Names in the order of size; specks get none. The first of `found` is no surface.
-void name_by_size(std::pmr::vector<Found>& found, StageContext& context) {
-  std::pmr::vector<std::uint32_t> order(&context.scratch);
-  order.reserve(found.size());
-  for (std::uint32_t i = 1; i < found.size(); ++i)
-    if (found[i].area_mm2 >= kSpeckMm2) order.push_back(i);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b;
-  });
-  const std::size_t kept = std::min<std::size_t>(order.size(), 65535);
-  for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = std::uint16_t(i + 1);
-}
-
 }  // namespace
 
 void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8_t* grey) {
@@ -115,14 +102,12 @@ ImageView reduced(const ImageView& image, int factor, StageContext& context) {
       context.scratch.allocate(std::max<std::size_t>(bytes, 1), alignof(std::uint32_t)));
   const auto row_sums = std::size_t(image.width_px * channels);
   std::pmr::vector<std::uint32_t> sums(kBands * row_sums, 0, &context.scratch);
-  context.pool.for_each_band(small.height_px, kBands, [&](int begin, int end, int band) {
+  context.pool.for_each(small.height_px, kBands, [&](int y, int band) {
     std::uint32_t* own = sums.data() + std::size_t(band) * row_sums;
-    for (int y = begin; y < end; ++y) {
-      std::byte* row = to + std::ptrdiff_t(y) * small.stride_bytes;
-      if (image.format == PixelFormat::Grey16)
-        reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint16_t*>(row));
-      else reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
-    }
+    std::byte* row = to + std::ptrdiff_t(y) * small.stride_bytes;
+    if (image.format == PixelFormat::Grey16)
+      reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint16_t*>(row));
+    else reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
   });
   small.bytes = to;
   return small;
@@ -136,8 +121,7 @@ StereoCalibration reduced(const StereoCalibration& calibration, int factor) {
 }
 
 Result<void> LiveRelief::check() const {
-  if (reduction < 1 || reduction > 16)
-    return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
+  if (reduction < 1 || reduction > 16) return invalid("reduction must lie in 1 .. 16").at("live-relief");
   return {};
 }
 
@@ -162,7 +146,16 @@ void label_surfaces(Relief& relief, StageContext& context) {
         }
         found.push_back({std::uint32_t(cells.size()), area, 0});
       });
-  name_by_size(found, context);
+  // Names in the order of size; specks get none. The first of `found` is no surface.
+  std::pmr::vector<std::uint32_t> order(&context.scratch);
+  order.reserve(found.size());
+  for (std::uint32_t i = 1; i < found.size(); ++i)
+    if (found[i].area_mm2 >= kSpeckMm2) order.push_back(i);
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b;
+  });
+  const std::size_t kept = std::min<std::size_t>(order.size(), 65535);
+  for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = std::uint16_t(i + 1);
   for (std::size_t i = 0; i < count; ++i) {
     relief.surface[i] = found[label[i]].name;
     if (relief.surface[i] == 0) relief.depth_mm[i] = 0;
@@ -173,14 +166,12 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
                                 StageContext& context) const {
   RELIEVO_TRY(check());
   if (frame.left.empty() || frame.right.empty())
-    return Error{Errc::InvalidInput, "a live picture has no pixels: is a camera unplugged?"}.at(
-        "live-relief");
+    return invalid("a live picture has no pixels: is a camera unplugged?").at("live-relief");
   if (frame.left.width_px != calibration.left.width_px ||
       frame.left.height_px != calibration.left.height_px ||
       frame.right.width_px != calibration.right.width_px ||
       frame.right.height_px != calibration.right.height_px)
-    return Error{Errc::InvalidInput,
-                 "the live picture's size is not the calibration's: calibrate at this size"}
+    return invalid("the live picture's size is not the calibration's: calibrate at this size")
         .at("live-relief");
   const StereoFrame small{reduced(frame.left, reduction, context), reduced(frame.right, reduction, context),
                           frame.sequence, frame.skew_ns};

@@ -43,10 +43,9 @@ void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, 
                       ThreadPool& pool, Plane<float>& across, Plane<float>& wrinkled) {
   if (!(wrinkle > 0)) return std::fill(wrinkled.values.begin(), wrinkled.values.end(), 0.0F);
   const auto wrinkle2 = float(1 / (wrinkle * wrinkle));
-  pool.for_each_band(d.height, kWeightBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < d.width; ++x)
-        wrinkled.row(y)[x] = std::min(kSharpest, wrinkle2 * bends_at(d, domain, x, y).squared) / kPatchNodes;
+  pool.for_each(d.height, kWeightBands, [&](int y) {
+    for (int x = 0; x < d.width; ++x)
+      wrinkled.row(y)[x] = std::min(kSharpest, wrinkle2 * bends_at(d, domain, x, y).squared) / kPatchNodes;
   });
   box_sum(wrinkled, kPatch, pool, across, wrinkled);
   for (float& value : wrinkled.values) value = std::clamp(value - kPlain, 0.0F, kMostWrinkled);
@@ -194,15 +193,14 @@ void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain,
   measure_wrinkles(d, domain, expected.wrinkle, pool, across, wrinkled);
   const auto lambda = float(expected.lambda);
   const auto crease2 = float(1 / (expected.crease * expected.crease));
-  pool.for_each_band(d.height, kWeightBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < d.width; ++x) {
-        const Bends bends = bends_at(d, domain, x, y);
-        const float omega = lambda / (1 + bends.squared * crease2 + wrinkled.row(y)[x]);
-        system.bend_xx.row(y)[x] = bends.row ? omega : 0;
-        system.bend_yy.row(y)[x] = bends.column ? omega : 0;
-        system.bend_xy.row(y)[x] = bends.cell ? 2 * omega : 0;
-      }
+  pool.for_each(d.height, kWeightBands, [&](int y) {
+    for (int x = 0; x < d.width; ++x) {
+      const Bends bends = bends_at(d, domain, x, y);
+      const float omega = lambda / (1 + bends.squared * crease2 + wrinkled.row(y)[x]);
+      system.bend_xx.row(y)[x] = bends.row ? omega : 0;
+      system.bend_yy.row(y)[x] = bends.column ? omega : 0;
+      system.bend_xy.row(y)[x] = bends.cell ? 2 * omega : 0;
+    }
   });
 }
 

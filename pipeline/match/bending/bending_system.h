@@ -96,7 +96,6 @@ class MultilevelPreconditioner {
   };
   void add_levels(const BendingSystem& system, std::pmr::memory_resource* memory);
   void restrict_to(const Plane<float>& fine, Plane<float>& coarse);
-  void finish_level(std::size_t level);
 
   ThreadPool& pool_;
   Plane<float> inverse_diagonal_;  // of the system itself

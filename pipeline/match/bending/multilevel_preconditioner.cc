@@ -123,32 +123,26 @@ void MultilevelPreconditioner::restrict_to(const Plane<float>& fine, Plane<float
   });
 }
 
-// What this lattice and all coarser ones make of the residual.
-void MultilevelPreconditioner::finish_level(std::size_t level) {
-  Level& here = levels_[level];
-  const ColumnSpan all{0, here.value.width};
-  pool_.for_each_band(here.value.height, kBands, [&](int begin, int end, int band) {
-    for (int y = begin; y < end; ++y) {
-      scale_row(here.value.row(y), here.inverse_diagonal.row(y), all, here.value.row(y));
-      if (level + 1 < levels_.size())
-        prolong_row(levels_[level + 1].value, y, all, here.inverse_diagonal.row(y), lines_.row(band),
-                    here.value.row(y));
-    }
-  });
-}
-
 void MultilevelPreconditioner::apply(const Plane<float>& r, const std::pmr::vector<ColumnSpan>& spans,
                                      Plane<float>& z) {
   for (std::size_t l = 0; l < levels_.size(); ++l)
     restrict_to(l == 0 ? r : levels_[l - 1].value, levels_[l].value);
-  for (std::size_t l = levels_.size(); l-- > 0;) finish_level(l);
-  pool_.for_each_band(z.height, kBands, [&](int begin, int end, int band) {
-    for (int y = begin; y < end; ++y) {
-      const ColumnSpan span = spans[std::size_t(y)];
-      scale_row(r.row(y), inverse_diagonal_.row(y), span, z.row(y));
-      if (!levels_.empty())
-        prolong_row(levels_[0].value, y, span, inverse_diagonal_.row(y), lines_.row(band), z.row(y));
-    }
+  // What each lattice and all coarser ones make of the residual.
+  for (std::size_t l = levels_.size(); l-- > 0;) {
+    Level& here = levels_[l];
+    const ColumnSpan all{0, here.value.width};
+    pool_.for_each(here.value.height, kBands, [&](int y, int band) {
+      scale_row(here.value.row(y), here.inverse_diagonal.row(y), all, here.value.row(y));
+      if (l + 1 < levels_.size())
+        prolong_row(levels_[l + 1].value, y, all, here.inverse_diagonal.row(y), lines_.row(band),
+                    here.value.row(y));
+    });
+  }
+  pool_.for_each(z.height, kBands, [&](int y, int band) {
+    const ColumnSpan span = spans[std::size_t(y)];
+    scale_row(r.row(y), inverse_diagonal_.row(y), span, z.row(y));
+    if (!levels_.empty())
+      prolong_row(levels_[0].value, y, span, inverse_diagonal_.row(y), lines_.row(band), z.row(y));
   });
 }
 

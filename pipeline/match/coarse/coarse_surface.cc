@@ -4,14 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <memory_resource>
 #include <optional>
 #include <vector>
 
 #include "pipeline/base/parts.h"
-#include "pipeline/match/image/plane.h"
-#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -169,11 +165,6 @@ constexpr int kSceneLevel = 2;
 constexpr int kSceneBand = 24;
 constexpr int kLeastPatch = 60;  // pixels of half the size
 
-SizeLadder ladder_for(const CoarseSurfaceOptions& options, bool scene, int finest) {
-  if (!scene) return {kCoarseLevel, finest, options.band, options.cross_check_px};
-  return {kSceneLevel, finest, kSceneBand, options.cross_check_px};
-}
-
 }  // namespace
 
 void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain,
@@ -241,8 +232,9 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
   const int w = field.domain.width;
   const int h = field.domain.height;
   Plane<float> disparity(&context.scratch, w, h);
-  RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder_for(options, scene, finest), {}, context, 0.3F,
-                         disparity));
+  const SizeLadder ladder{scene ? kSceneLevel : kCoarseLevel, finest, scene ? kSceneBand : options.band,
+                          options.cross_check_px};
+  RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder, {}, context, 0.3F, disparity));
 
   Plane<std::uint8_t> allowed(&context.scratch, w, h);
   for (int y = kBorder; y < h - kBorder; ++y)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 
 #include "hal/base/simd.h"
@@ -99,21 +98,16 @@ RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_pen
 struct Volume {
   // Every cell is written before it is read: nothing is cleared.
   Volume(std::pmr::memory_resource& memory, int w, int h, int many)
-      : scratch(&memory),
-        width(w),
-        height(h),
-        candidates(many),
-        cells(cell(0, h) + kLanes),
-        cost(scratch.allocate_object<std::uint8_t>(cells)),
-        sum(scratch.allocate_object<std::uint16_t>(cells)) {}
+      : scratch(&memory), width(w), height(h), candidates(many) {}
   ~Volume() { scratch.deallocate_object(sum, cells), scratch.deallocate_object(cost, cells); }
   Volume(const Volume&) = delete;
   Volume& operator=(const Volume&) = delete;
   std::pmr::polymorphic_allocator<> scratch;
   int width, height, candidates;
-  std::size_t cells;
-  std::uint8_t* cost;  // both with room for the lanes behind the last pixel
-  std::uint16_t* sum;
+  std::size_t cells{cell(0, height) + kLanes};
+  std::uint8_t* cost{
+      scratch.allocate_object<std::uint8_t>(cells)};  // both with room for the lanes behind the last pixel
+  std::uint16_t* sum{scratch.allocate_object<std::uint16_t>(cells)};
   std::size_t cell(int x, int y) const {
     return (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(candidates);
   }
@@ -128,7 +122,6 @@ struct Sweep {
         volume(cells),
         first(band),
         dir(direction),
-        lanes(lanes_for(cells.candidates)),
         step_penalty(std::uint16_t(costs.step_penalty)),
         jump_penalty(std::uint16_t(costs.jump_penalty)),
         far(std::size_t(lanes + 2), kFar, &scratch),
@@ -169,7 +162,7 @@ struct Sweep {
   const CensusPair& pair;
   Volume& volume;
   const Plane<std::int16_t>& first;
-  int dir, lanes;
+  int dir, lanes = lanes_for(volume.candidates);
   std::uint16_t step_penalty, jump_penalty;
   std::pmr::vector<std::uint16_t> far, beyond, line;
   PathRow along;
@@ -272,21 +265,19 @@ bool sweep(Sweep&& s, Plane<float>* disparity, const std::atomic<bool>* cancelle
 
 }  // namespace
 
-RELIEVO_SIMD void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& census, int begin, int end) {
+RELIEVO_SIMD void census_row(const Plane<float>& grey, Plane<std::uint64_t>& census, int y) {
   const int w = grey.width;
-  for (int y = begin; y < end; ++y) {
-    std::uint64_t* to = census.row(y);
-    std::fill(to, to + w, 0);
-    if (y < kHalfHeight || y >= grey.height - kHalfHeight) continue;
-    const float* centre = grey.row(y);
-    for (int j = -kHalfHeight; j <= kHalfHeight; ++j)
-      for (int i = -kHalfWidth; i <= kHalfWidth; ++i) {
-        if (i == 0 && j == 0) continue;
-        const float* other = grey.row(y + j) + i;
-        for (int x = kHalfWidth; x < w - kHalfWidth; ++x)
-          to[x] = (to[x] << 1) | std::uint64_t(other[x] < centre[x]);
-      }
-  }
+  std::uint64_t* to = census.row(y);
+  std::fill(to, to + w, 0);
+  if (y < kHalfHeight || y >= grey.height - kHalfHeight) return;
+  const float* centre = grey.row(y);
+  for (int j = -kHalfHeight; j <= kHalfHeight; ++j)
+    for (int i = -kHalfWidth; i <= kHalfWidth; ++i) {
+      if (i == 0 && j == 0) continue;
+      const float* other = grey.row(y + j) + i;
+      for (int x = kHalfWidth; x < w - kHalfWidth; ++x)
+        to[x] = (to[x] << 1) | std::uint64_t(other[x] < centre[x]);
+    }
 }
 
 RELIEVO_SIMD void census_costs(const CensusPair& pair, const std::int16_t* first, int y, int candidates,

@@ -23,9 +23,9 @@ namespace relievo::pipeline {
 // The census transform (Zabih and Woodfill, Non-parametric local transforms for computing visual
 // correspondence, 1994), blind to gain and offset. Thread: any, on rows of their own.
 
-// One bit a neighbour (9 x 7 without the centre) that is darker than the centre, of rows [begin, end). The
-// border, four columns and three rows wide, stays 0.
-void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& census, int begin, int end);
+// One bit a neighbour (9 x 7 without the centre) that is darker than the centre, of row y. The border, four
+// columns and three rows wide, stays 0.
+void census_row(const Plane<float>& grey, Plane<std::uint64_t>& census, int y);
 
 struct CensusPair {
   const Plane<std::uint64_t>& from;  // the view the disparity field belongs to

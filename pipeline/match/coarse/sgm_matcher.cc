@@ -11,7 +11,6 @@
 
 #include "hal/base/simd.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/plane_filters.h"
 #include "pipeline/match/window/window_correlation.h"
 
@@ -32,25 +31,23 @@ Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int
   const int h = left.grey.height;
   Plane<std::uint64_t> census_left(&context.scratch, w, h);
   Plane<std::uint64_t> census_right(&context.scratch, w, h);
-  context.pool.for_each_band(h, 8, [&](int begin, int end, int) {
-    census_rows(left.grey, census_left, begin, end);
-    census_rows(right.grey, census_right, begin, end);
+  context.pool.for_each(h, 8, [&](int y) {
+    census_row(left.grey, census_left, y);
+    census_row(right.grey, census_right, y);
   });
   // One arena for two threads: each gets a block of its own, taken here.
   const auto cells = std::size_t(w) * std::size_t(h) * std::size_t(candidates);
   const std::size_t share = 3 * cells + 64 * std::size_t(w) * (std::size_t(candidates) + 16) + 65536;
   const std::span<std::byte> blocks(
       static_cast<std::byte*>(context.scratch.allocate(2 * share, alignof(std::max_align_t))), 2 * share);
-  context.pool.for_each_band(2, 2, [&](int begin, int end, int) {
-    for (int side = begin; side < end; ++side) {
-      Arena own{blocks.subspan(std::size_t(side) * share, share)};
-      if (side == 0)
-        semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates,
-                    costs, own, both.left, &context.cancelled);
-      else
-        semi_global({census_right, census_left, right.valid, left.valid, -1}, both.first_right, candidates,
-                    costs, own, both.right, &context.cancelled);
-    }
+  context.pool.for_each(2, 2, [&](int side) {
+    Arena own{blocks.subspan(std::size_t(side) * share, share)};
+    if (side == 0)
+      semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates,
+                  costs, own, both.left, &context.cancelled);
+    else
+      semi_global({census_right, census_left, right.valid, left.valid, -1}, both.first_right, candidates,
+                  costs, own, both.right, &context.cancelled);
   });
   if (context.stop()) return stopped();
   return {};
@@ -71,20 +68,6 @@ void predict(const Plane<float>& coarse, int band, int whole_first, int whole_la
       const int start = int(std::lround(2 * last)) - band / 2;
       first.row(y)[x] =
           std::int16_t(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
-    }
-  }
-}
-
-// Marks as kNoDisparity what the other view does not confirm within `limit_px`.
-void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px) {
-  for (int y = 0; y < left.height; ++y) {
-    float* l = left.row(y);
-    const float* r = right.row(y);
-    for (int x = 0; x < left.width; ++x) {
-      if (l[x] == kNoDisparity) continue;
-      const int other = int(std::lround(float(x) - l[x]));
-      const bool seen = other >= 0 && other < right.width && std::abs(r[other] - l[x]) <= limit_px;
-      if (!seen) l[x] = kNoDisparity;
     }
   }
 }
@@ -161,9 +144,8 @@ void median3(Plane<float>& field, StageContext& context) {
   constexpr int kMedianBands = 16;
   Plane<float> least(&context.scratch, field.width, kMedianBands),
       most(&context.scratch, field.width, kMedianBands);
-  context.pool.for_each_band(field.height, kMedianBands, [&](int begin, int end, int band) {
-    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y)
-      median_row(copy, y, least.row(band), most.row(band), field.row(y));
+  context.pool.for_each(field.height, kMedianBands, [&](int y, int band) {
+    if (y > 0 && y < field.height - 1) median_row(copy, y, least.row(band), most.row(band), field.row(y));
   });
 }
 
@@ -199,7 +181,17 @@ Result<void> match_down(const DisparityInterval& range, const Pyramids& pyramids
       predict(right, ladder.band, first, last, both.first_right);
     }
     RELIEVO_TRY(match_both(from, to, candidates, costs, context, both));
-    cross_check(both.left, both.right, ladder.cross_check_px);
+    // What the other view does not confirm is not known.
+    for (int y = 0; y < both.left.height; ++y) {
+      float* l = both.left.row(y);
+      const float* r = both.right.row(y);
+      for (int x = 0; x < both.left.width; ++x) {
+        if (l[x] == kNoDisparity) continue;
+        const int other = int(std::lround(float(x) - l[x]));
+        if (other < 0 || other >= both.right.width || !(std::abs(r[other] - l[x]) <= ladder.cross_check_px))
+          l[x] = kNoDisparity;
+      }
+    }
     median3(both.left, context);
     std::ranges::copy(both.left.values, next_left.values.begin());
     if (level > ladder.finest) {  // of the finest size only the left view's is asked for
@@ -219,14 +211,14 @@ Result<void> match_down(const DisparityInterval& range, const Pyramids& pyramids
 }
 
 Result<void> SgmMatcher::check() const {
-  if (coarsest < finest) return Error{Errc::InvalidInput, "coarsest must be at least finest"}.at("sgm");
+  if (coarsest < finest) return invalid("coarsest must be at least finest").at("sgm");
   return {};
 }
 
 Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                    StageContext& context) const {
   if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
-    return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
+    return invalid("the rectified pair is smaller than 64 pixels");
   const int scale = 1 << finest;
   DisparityField field{
       {&context.scratch, (pair.width_px + scale - 1) / scale, (pair.height_px + scale - 1) / scale},

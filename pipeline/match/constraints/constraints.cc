@@ -23,38 +23,6 @@ struct Entry {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-// Marks the largest subset of a row's entries (sorted by `left`) whose places do not fall.
-class RowJudge {
- public:
-  RowJudge(std::size_t most, std::pmr::memory_resource* memory)
-      : tails_(memory), before_(memory), kept_(memory) {
-    tails_.reserve(most);
-    before_.reserve(most);
-    kept_.reserve(most);
-  }
-
-  const std::pmr::vector<std::uint8_t>& keep(std::span<const Entry> row) {
-    tails_.clear();
-    before_.assign(row.size(), kNone);
-    kept_.assign(row.size(), std::uint8_t{0});
-    for (std::uint32_t k = 0; k < row.size(); ++k) {
-      // tails_[n]: the end of the ordered set of n + 1 whose last place is least.
-      const auto at =
-          std::upper_bound(tails_.begin(), tails_.end(), k,
-                           [&](std::uint32_t a, std::uint32_t b) { return row[a].place < row[b].place; });
-      before_[k] = at == tails_.begin() ? kNone : *(at - 1);
-      if (at == tails_.end()) tails_.push_back(k);
-      else *at = k;
-    }
-    for (std::uint32_t k = tails_.empty() ? kNone : tails_.back(); k != kNone; k = before_[k]) kept_[k] = 1;
-    return kept_;
-  }
-
- private:
-  std::pmr::vector<std::uint32_t> tails_, before_;
-  std::pmr::vector<std::uint8_t> kept_;
-};
-
 }  // namespace
 
 void SimilarityConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
@@ -127,14 +95,25 @@ void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, i
     if (a.row != b.row) return a.row < b.row;
     return a.left != b.left ? a.left < b.left : a.match < b.match;
   });
-  RowJudge judge(entries.size(), &context.scratch);
-  for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+  std::pmr::vector<std::uint32_t> tails(&context.scratch), before(entries.size(), kNone, &context.scratch);
+  std::pmr::vector<std::uint8_t> kept(entries.size(), std::uint8_t{0}, &context.scratch);
+  tails.reserve(entries.size());
+  const auto falls = [&](std::uint32_t a, std::uint32_t b) { return entries[a].place < entries[b].place; };
+  for (std::uint32_t begin = 0, end = 0; begin < entries.size(); begin = end) {
     if (context.stop()) return;
-    while (end < entries.size() && entries[end].row == entries[begin].row) ++end;
-    const auto& kept = judge.keep(std::span<const Entry>(entries).subspan(begin, end - begin));
-    for (std::size_t k = begin; k < end; ++k)
-      if (kept[k - begin] == 0) matches[entries[k].match].rejected_by = bit;
+    // The largest subset of a row's entries whose places do not fall is kept. tails[n]: the end of the
+    // ordered set of n + 1 whose last place is least.
+    tails.clear();
+    for (; end < entries.size() && entries[end].row == entries[begin].row; ++end) {
+      const auto at = std::ranges::upper_bound(tails, end, falls);
+      if (at != tails.begin()) before[end] = *(at - 1);
+      if (at == tails.end()) tails.push_back(end);
+      else *at = end;
+    }
+    for (std::uint32_t k = tails.back(); k != kNone; k = before[k]) kept[k] = 1;
   }
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    if (kept[k] == 0) matches[entries[k].match].rejected_by = bit;
 }
 
 namespace {
@@ -179,12 +158,10 @@ void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matc
   scores.reserve(kAskedBands);
   for (int band = 0; band < kAskedBands; ++band)
     scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * search_px + 1, &context.scratch);
-  context.pool.for_each_band(int(matches.size()), kAskedBands, [&](int begin, int end, int band) {
-    for (int k = begin; k < end && !context.stop(); ++k) {
-      Match& match = matches[std::size_t(k)];
-      if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
-      if (found_elsewhere(match, *this, scores[std::size_t(band)])) match.rejected_by = bit;
-    }
+  context.pool.for_each<std::size_t>(int(matches.size()), kAskedBands, [&](std::size_t k, int band) {
+    Match& match = matches[k];
+    if (context.stop() || match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) return;
+    if (found_elsewhere(match, *this, scores[std::size_t(band)])) match.rejected_by = bit;
   });
 }
 
@@ -267,13 +244,11 @@ void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches
   const Spread whole = spread_of(all);
   std::pmr::vector<std::uint8_t> out(matches.size(), std::uint8_t{0}, &context.scratch);
   const Cells cells = cells_of(matches, radius_px, &context.scratch);
-  context.pool.for_each_band(int(matches.size()), kBands, [&](int begin, int end, int) {
-    for (auto k = std::uint32_t(begin); k < std::uint32_t(end) && !context.stop(); ++k) {
-      if (matches[k].rejected_by != 0) continue;
-      const float limit = global_sigmas * std::max(whole.sigma, floor_px);
-      const bool far = global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;
-      out[k] = far || (local_sigmas > 0 && stands_out(k, matches, cells, *this)) ? 1 : 0;
-    }
+  context.pool.for_each<std::uint32_t>(int(matches.size()), kBands, [&](std::uint32_t k) {
+    if (context.stop() || matches[k].rejected_by != 0) return;
+    const float limit = global_sigmas * std::max(whole.sigma, floor_px);
+    const bool far = global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;
+    out[k] = far || (local_sigmas > 0 && stands_out(k, matches, cells, *this)) ? 1 : 0;
   });
   for (std::size_t k = 0; k < matches.size(); ++k)
     if (out[k] != 0) matches[k].rejected_by = bit;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -80,7 +79,7 @@ void read_row(const ImageView& picture, int y, std::pmr::vector<float>& to) {
   ImageView row = picture;
   row.bytes += std::ptrdiff_t(y) * picture.stride_bytes;
   row.height_px = 1;
-  grey_rows(row, to.data(), picture.width_px, 0, 1);
+  grey_row(row, 0, to.data());
 }
 
 Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {

@@ -8,12 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/base/stage.h"
-#include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
@@ -92,13 +88,7 @@ class LocalShifts {
         field_(field),
         face_(face),
         context_(context),
-        level_(level),
-        stride_(std::max(1, (1 << level) / field.step_px)),
-        left_detail_(&context.scratch, left_.grey.width, left_.grey.height),
-        right_detail_(&context.scratch, right_.grey.width, right_.grey.height),
-        patches_(&context.scratch, patches_over(field.domain.width, stride_),
-                 patches_over(field.domain.height, stride_)),
-        locals_(patches_.values.size(), &context.scratch) {
+        level_(level) {
     high_pass(left_.grey, context, left_detail_);
     high_pass(right_.grey, context, right_detail_);
   }
@@ -144,17 +134,16 @@ class LocalShifts {
 
   void gather(const RowShift& from) {
     const int reach = kPatchPx * stride_;
-    context_.pool.for_each_band(patches_.height, kBands, [&](int begin, int end, int) {
-      for (int q = begin; q < end; ++q)
-        for (int p = 0; p < patches_.width; ++p) {
-          Patch& patch = patches_.row(q)[p] = {};
-          const int j_end = std::min(field_.domain.height, (q + 1) * reach);
-          const int i_end = std::min(field_.domain.width, (p + 1) * reach);
-          for (int j = q * reach; j < j_end; j += stride_)
-            for (int i = p * reach; i < i_end; i += stride_)
-              if (field_.domain.row(j)[i] != 0 && face_.holds(i * field_.step_px, j * field_.step_px))
-                add_node(from, i / stride_, j / stride_, double(field_.disparity_px.row(j)[i]), patch);
-        }
+    context_.pool.for_each(patches_.height, kBands, [&](int q) {
+      for (int p = 0; p < patches_.width; ++p) {
+        Patch& patch = patches_.row(q)[p] = {};
+        const int j_end = std::min(field_.domain.height, (q + 1) * reach);
+        const int i_end = std::min(field_.domain.width, (p + 1) * reach);
+        for (int j = q * reach; j < j_end; j += stride_)
+          for (int i = p * reach; i < i_end; i += stride_)
+            if (field_.domain.row(j)[i] != 0 && face_.holds(i * field_.step_px, j * field_.step_px))
+              add_node(from, i / stride_, j / stride_, double(field_.disparity_px.row(j)[i]), patch);
+      }
     });
   }
 
@@ -193,12 +182,14 @@ class LocalShifts {
   const Ellipse& face_;
   StageContext& context_;
   int level_;
-  int stride_;       // every so many nodes of the field are a pixel of this level
-  double gain_ = 1;  // of the right view over the left
-  Plane<float> left_detail_;
-  Plane<float> right_detail_;
-  Plane<Patch> patches_;
-  std::pmr::vector<LocalShift> locals_;
+  int stride_{std::max(
+      1, (1 << level_) / field_.step_px)};  // every so many nodes of the field are a pixel of this level
+  double gain_ = 1;                         // of the right view over the left
+  Plane<float> left_detail_{&context_.scratch, left_.grey.width, left_.grey.height};
+  Plane<float> right_detail_{&context_.scratch, right_.grey.width, right_.grey.height};
+  Plane<Patch> patches_{&context_.scratch, patches_over(field_.domain.width, stride_),
+                        patches_over(field_.domain.height, stride_)};
+  std::pmr::vector<LocalShift> locals_{patches_.values.size(), &context_.scratch};
 };
 
 constexpr int kFirstLevel = 3;
@@ -231,26 +222,16 @@ EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& 
 }
 
 void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context) {
-  context.pool.for_each_band(to.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < to.width; ++x) {
-        const double at = y + shift.at(x, y);
-        const int k = int(std::floor(at));
-        const bool inside = k >= kColumnReach && k + kColumnReach < to.height;
-        const float* above = from.data() + std::ptrdiff_t(inside ? k : y) * to.width + x;
-        to.row(y)[x] = inside ? ColumnWeights(float(at - k)).sample(above, to.width) : *above;
-      }
+  context.pool.for_each(to.height, kBands, [&](int y) {
+    for (int x = 0; x < to.width; ++x) {
+      const double at = y + shift.at(x, y);
+      const int k = int(std::floor(at));
+      const bool inside = k >= kColumnReach && k + kColumnReach < to.height;
+      const float* above = from.data() + std::ptrdiff_t(inside ? k : y) * to.width + x;
+      to.row(y)[x] = inside ? ColumnWeights(float(at - k)).sample(above, to.width) : *above;
+    }
   });
 }
-
-RowAligner::RowAligner(const RectifiedPair& pair, Pyramids& pyramids, double beyond_px, bool follow_motion,
-                       StageContext& context)
-    : pair_(pair),
-      pyramids_(pyramids),
-      context_(context),
-      beyond_px_(beyond_px),
-      follow_motion_(follow_motion),
-      motion_(&context.scratch, pair.width_px, pair.height_px) {}
 
 double RowAligner::align(const SurfaceField& field) {
   Arena::Mark mark(context_.scratch);

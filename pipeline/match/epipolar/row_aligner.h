@@ -103,7 +103,12 @@ class RowAligner {
   // Borrows all; resamples pyramids.right. A linear shift of less than `beyond_px`, rms over the face, is
   // left alone.
   RowAligner(const RectifiedPair& pair, Pyramids& pyramids, double beyond_px, bool follow_motion,
-             StageContext& context);
+             StageContext& context)
+      : pair_(pair),
+        pyramids_(pyramids),
+        context_(context),
+        beyond_px_(beyond_px),
+        follow_motion_(follow_motion) {}
 
   // Measures on a surface good to about a pixel of half the size and resamples every level of the right
   // view. Returns the largest shift it made, full-size pixels.
@@ -128,7 +133,7 @@ class RowAligner {
   bool follow_motion_;
   EpipolarShift measured_;  // the last one, where nothing was applied
   EpipolarShift applied_;
-  RowMotion motion_;
+  RowMotion motion_{&context_.scratch, pair_.width_px, pair_.height_px};
 };
 
 }  // namespace relievo::pipeline

@@ -137,12 +137,7 @@ Node node_of(const LocalShift& local) {
 struct Beyond {
   Beyond(std::span<const LocalShift> all, const EpipolarShift& linear, const RowMotion& motion,
          Arena& scratch)
-      : shift(&scratch),
-        prior(&scratch),
-        around(&scratch),
-        at(&scratch, motion.shift_px.width, motion.shift_px.height, -1),
-        next(all.size(), -1, &scratch),
-        locals(all) {
+      : locals(all), memory(&scratch), at(memory, motion.shift_px.width, motion.shift_px.height, -1) {
     Numbers room(&scratch);
     for (const LocalShift& local : all) room.push_back(local.information);
     const double usual = median(room);
@@ -164,10 +159,11 @@ struct Beyond {
         for (int k = at.row(y)[x]; k >= 0; k = next[std::size_t(k)]) visit(std::size_t(k));
   }
 
-  Numbers shift, prior, around;
-  Plane<int> at;               // the first local at a node, -1: none
-  std::pmr::vector<int> next;  // the next local at the same node
   std::span<const LocalShift> locals;
+  std::pmr::memory_resource* memory;
+  Numbers shift{memory}, prior{memory}, around{memory};
+  Plane<int> at;                                          // the first local at a node, -1: none
+  std::pmr::vector<int> next{locals.size(), -1, memory};  // the next local at the same node
 };
 
 struct Surroundings {

@@ -74,14 +74,12 @@ Result<Match> match_of(const NumberLine& n, const RectifiedPair& windows, float 
     return x >= 0 && y >= 0 && x <= windows.width_px - 1 && y <= windows.height_px - 1;
   };
   if (n.count < 3 || !n.rest.empty())
-    return Error{Errc::InvalidInput,
-                 "a match is x y disparity [sigma], numbers with blanks or commas between"};
+    return invalid("a match is x y disparity [sigma], numbers with blanks or commas between");
   const auto [x, y, d, sigma] = n.value;
-  if (!inside(x, y)) return Error{Errc::InvalidInput, "the place lies outside the left picture"};
-  if (!inside(x - d, y))
-    return Error{Errc::InvalidInput, "with this disparity the partner lies outside the right picture"};
+  if (!inside(x, y)) return invalid("the place lies outside the left picture");
+  if (!inside(x - d, y)) return invalid("with this disparity the partner lies outside the right picture");
   if (n.count == 4 && !(sigma > 0 && sigma <= 1000))
-    return Error{Errc::InvalidInput, "sigma must be positive, at most 1000 pixels"};
+    return invalid("sigma must be positive, at most 1000 pixels");
   return Match{{float(x), float(y)}, float(d), 0, n.count == 4 ? float(sigma) : sigma_px, 0};
 }
 

@@ -31,17 +31,6 @@ bool outside(const RectifiedPair& pair, const Match& m) {
 
 float apart(Vec2f a, Vec2f b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-void join_scattered(std::span<const Match> by_hand, MatchSet& set) {
-  std::erase_if(set.matches, [&](const Match& m) {
-    return std::ranges::any_of(by_hand, [&](const Match& hand) {
-      const float distance = apart(m.left_px, hand.left_px);
-      return distance <= kRadiusPx && std::abs(m.disparity_px - hand.disparity_px) > distance;
-    });
-  });
-  for (const Match& hand : by_hand)
-    set.matches.push_back({hand.left_px, hand.disparity_px, 0, hand.sigma_px, 0});
-}
-
 // A node that a match may grow to, with the match it would have.
 struct Offer {
   float alike;
@@ -61,8 +50,6 @@ class Lattice {
         by_hand_(by_hand),
         set_(set),
         step_(set.lattice_step_px),
-        first_x_(phase(set.matches.empty() ? 0 : set.matches.front().left_px.x)),
-        first_y_(phase(set.matches.empty() ? 0 : set.matches.front().left_px.y)),
         at_(memory, (pair.width_px - 1 - first_x_) / step_ + 1, (pair.height_px - 1 - first_y_) / step_ + 1,
             kNone),
         fixed_(memory, at_.width, at_.height),
@@ -193,7 +180,8 @@ class Lattice {
   const RectifiedPair& pair_;
   std::span<const Match> by_hand_;
   MatchSet& set_;
-  int step_, first_x_, first_y_;
+  int step_, first_x_{phase(set_.matches.empty() ? 0 : set_.matches.front().left_px.x)},
+      first_y_{phase(set_.matches.empty() ? 0 : set_.matches.front().left_px.y)};
   Plane<std::uint32_t> at_;      // a node's match
   Plane<std::uint8_t> fixed_;    // 1: the hand's, or grown from it
   std::pmr::vector<int> grown_;  // nodes, of each of by_hand
@@ -206,7 +194,7 @@ Result<MatchSet> join_by_hand(const RectifiedPair& pair, const MatchSet& matches
                               std::span<const Match> by_hand, StageContext& context) {
   for (std::size_t k = 0; k < by_hand.size(); ++k)
     if (outside(pair, by_hand[k]) || !(by_hand[k].sigma_px > 0))
-      return Error{Errc::InvalidInput, "this match made by hand lies outside the pictures: remove or move it"}
+      return invalid("this match made by hand lies outside the pictures: remove or move it")
           .at("by hand " + std::to_string(k + 1));
   MatchSet set(&context.scratch);
   set.epipolar_shift = matches.epipolar_shift;
@@ -215,7 +203,14 @@ Result<MatchSet> join_by_hand(const RectifiedPair& pair, const MatchSet& matches
   set.matches.reserve(matches.matches.size() + matches.matches.size() / 16 + 4096);
   set.matches.assign(matches.matches.begin(), matches.matches.end());
   if (set.lattice_step_px == 0) {
-    join_scattered(by_hand, set);
+    std::erase_if(set.matches, [&](const Match& m) {
+      return std::ranges::any_of(by_hand, [&](const Match& hand) {
+        const float distance = apart(m.left_px, hand.left_px);
+        return distance <= kRadiusPx && std::abs(m.disparity_px - hand.disparity_px) > distance;
+      });
+    });
+    for (const Match& hand : by_hand)
+      set.matches.push_back({hand.left_px, hand.disparity_px, 0, hand.sigma_px, 0});
     return set;
   }
   RELIEVO_TRY(Lattice(pair, by_hand, set, &context.scratch).join(context));

@@ -67,23 +67,19 @@ RELIEVO_SIMD void raise(const float* from, int count, float* to) {
 template <typename Towards>
 void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& pool, Plane<float>& room) {
   const int width = plane.width, height = plane.height;
-  pool.for_each_band(height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* to = room.row(y);
-      std::copy_n(plane.row(y), width, to);
-      for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
-        towards(plane.row(v), width, to);
-    }
+  pool.for_each(height, kBands, [&](int y) {
+    float* to = room.row(y);
+    std::copy_n(plane.row(y), width, to);
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
+      towards(plane.row(v), width, to);
   });
-  pool.for_each_band(height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* from = room.row(y);
-      float* to = plane.row(y);
-      std::copy_n(from, width, to);
-      for (int i = 1; i <= std::min(reach, width - 1); ++i) {
-        towards(from + i, width - i, to);
-        towards(from, width - i, to + i);
-      }
+  pool.for_each(height, kBands, [&](int y) {
+    const float* from = room.row(y);
+    float* to = plane.row(y);
+    std::copy_n(from, width, to);
+    for (int i = 1; i <= std::min(reach, width - 1); ++i) {
+      towards(from + i, width - i, to);
+      towards(from, width - i, to + i);
     }
   });
 }
@@ -130,26 +126,22 @@ Gaussian::Gaussian(double sigma_cells) {
 
 void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room) const {
   const int reach = reach_;
-  pool.for_each_band(plane.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* wide = room.row(y);
-      float* to = wide + reach;
-      std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i)
-        add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)),
-                     weight_[std::size_t(i)], plane.width, to);
-      std::fill_n(wide, reach, to[0]);
-      std::fill_n(to + plane.width, reach, to[plane.width - 1]);
-    }
+  pool.for_each(plane.height, kBands, [&](int y) {
+    float* wide = room.row(y);
+    float* to = wide + reach;
+    std::fill_n(to, plane.width, 0.0F);
+    for (int i = 0; i <= reach; ++i)
+      add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)),
+                   weight_[std::size_t(i)], plane.width, to);
+    std::fill_n(wide, reach, to[0]);
+    std::fill_n(to + plane.width, reach, to[plane.width - 1]);
   });
-  pool.for_each_band(plane.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* from = room.row(y) + reach;
-      float* to = plane.row(y);
-      std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i)
-        add_weighted(from - i, from + i, weight_[std::size_t(i)], plane.width, to);
-    }
+  pool.for_each(plane.height, kBands, [&](int y) {
+    const float* from = room.row(y) + reach;
+    float* to = plane.row(y);
+    std::fill_n(to, plane.width, 0.0F);
+    for (int i = 0; i <= reach; ++i)
+      add_weighted(from - i, from + i, weight_[std::size_t(i)], plane.width, to);
   });
 }
 

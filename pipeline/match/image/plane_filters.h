@@ -46,8 +46,8 @@ struct PyramidLevel {
   Plane<std::uint8_t> valid;
 };
 
-// Rows [begin, end) of the smaller picture.
-void halve_rows(const PyramidLevel& whole, PyramidLevel& half, int begin, int end);
+// Row j of the smaller picture.
+void halve_row(const PyramidLevel& whole, PyramidLevel& half, int j);
 
 // Fills every level from the one before; the first must be filled.
 void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool);

@@ -73,9 +73,8 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
   const int count = (needed + 15) / 16 * 16;
   const Crop crop = crop_for(pair, keypoints, first, count);
   if (crop.width <= count + window_px || crop.height <= window_px)
-    return Error{
-        Errc::InvalidInput,
-        "the pictures are narrower than the volume's disparities: narrow the volume (--near, --far)"};
+    return invalid(
+        "the pictures are narrower than the volume's disparities: narrow the volume (--near, --far)");
   // Its own volumes: two of 16 bits.
   const double bytes = 4.0 * crop.width * crop.height * count;
   if (mode == SgbmMode::HH && bytes > kMostBytes)

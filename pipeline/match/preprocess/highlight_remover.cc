@@ -3,12 +3,10 @@
 #include "pipeline/match/preprocess/preprocessors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "hal/base/statistics.h"
-#include "hal/base/thread_pool.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
 
@@ -40,23 +38,19 @@ constexpr float kPerNoise = 1.3F;
 constexpr float kLeastOwn = 0.4F, kOwn = 0.5F;
 constexpr double kSkinShare = 0.5;  // of the face's width, to every side of its middle: little but skin
 
-double linear_of(double grey) {
-  const double v = grey / 255;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
-double grey_of(double linear) {
-  return 255 * (linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
-}
-
 struct Curves {
   static constexpr int kSteps = 4096;  // of the way back: a twentieth of a grey level where it is steepest
   std::array<float, 256> linear{};
   std::array<float, kSteps + 1> grey{};
   Curves() {
-    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = float(linear_of(double(i)));
-    // By the root of the light, which spreads the dark end.
-    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = float(grey_of(std::pow(double(i) / kSteps, 2)));
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+      const double v = double(i) / 255;
+      linear[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    for (std::size_t i = 0; i < grey.size(); ++i) {  // by the root of the light, which spreads the dark end
+      const double v = std::pow(double(i) / kSteps, 2);
+      grey[i] = float(255 * (v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055));
+    }
   }
   float to_grey(float light) const {
     return grey[std::size_t(std::lround(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * float(kSteps)))];
@@ -117,24 +111,23 @@ Pixel pixel_of(const RectifiedView& view, std::size_t k) {
           view.valid[k] != 0 && std::max({rgb[0], rgb[1], rgb[2]}) < kClipped};
 }
 
-void gather(const RectifiedView& view, int width_px, const Part& part, Light& light, int begin, int end) {
+// A row of cells.
+void gather(const RectifiedView& view, int width_px, const Part& part, Light& light, int cy) {
   constexpr float kShare = 1.0F / (kCell * kCell);
-  for (int cy = begin; cy < end; ++cy) {
-    float* all = light.all.row(cy);
-    float* colour = light.colour.row(cy);
-    for (int cx = 0; cx < part.width; ++cx) {
-      float red = 0, rest = 0;
-      bool valid = true;
-      for (int i = 0; i < kCell * kCell; ++i) {
-        const std::size_t k = std::size_t((part.top + cy) * kCell + i / kCell) * std::size_t(width_px) +
-                              std::size_t((part.left + cx) * kCell + i % kCell);
-        const Pixel pixel = pixel_of(view, k);
-        red += pixel.red, rest += pixel.rest;
-        valid = valid && pixel.known;
-      }
-      all[cx] = valid ? (red + rest) * (kShare / 3) : 0;
-      colour[cx] = valid ? (red - 0.5F * rest) * kShare : 0;
+  float* all = light.all.row(cy);
+  float* colour = light.colour.row(cy);
+  for (int cx = 0; cx < part.width; ++cx) {
+    float red = 0, rest = 0;
+    bool valid = true;
+    for (int i = 0; i < kCell * kCell; ++i) {
+      const std::size_t k = std::size_t((part.top + cy) * kCell + i / kCell) * std::size_t(width_px) +
+                            std::size_t((part.left + cx) * kCell + i % kCell);
+      const Pixel pixel = pixel_of(view, k);
+      red += pixel.red, rest += pixel.rest;
+      valid = valid && pixel.known;
     }
+    all[cx] = valid ? (red + rest) * (kShare / 3) : 0;
+    colour[cx] = valid ? (red - 0.5F * rest) * kShare : 0;
   }
 }
 
@@ -249,20 +242,19 @@ struct Mirrored {
 };
 
 void find_mirrored(const Light& light, const Plane<float>& ratio, const FineColours& colours,
-                   Mirrored& mirrored, int begin, int end) {
-  for (int y = begin; y < end; ++y)
-    for (int x = 0; x < ratio.width; ++x) {
-      const float all = light.all.row(y)[x];
-      const float skin = light.colour.row(y)[x] * ratio.row(y)[x];  // light without the lamp's
-      const float excess = std::max(0.0F, excess_of(all, skin)),
-                  lit = std::max(0.0F, excess - kDull * curves().to_grey(all)),
-                  bright = kPerNoise * colours.variance;
-      const float share = colours.trust * lit * lit / (lit * lit + bright * bright + 1e-6F);
-      mirrored.light.row(y)[x] = all - skin;
-      mirrored.excess.row(y)[x] = excess;
-      mirrored.fine.row(y)[x] = share * steepness_of(all);
-      mirrored.belief.row(y)[x] = std::clamp((skin - kWhite * all) / (kWhite * all + 1e-6F), 0.0F, 1.0F);
-    }
+                   Mirrored& mirrored, int y) {
+  for (int x = 0; x < ratio.width; ++x) {
+    const float all = light.all.row(y)[x];
+    const float skin = light.colour.row(y)[x] * ratio.row(y)[x];  // light without the lamp's
+    const float excess = std::max(0.0F, excess_of(all, skin)),
+                lit = std::max(0.0F, excess - kDull * curves().to_grey(all)),
+                bright = kPerNoise * colours.variance;
+    const float share = colours.trust * lit * lit / (lit * lit + bright * bright + 1e-6F);
+    mirrored.light.row(y)[x] = all - skin;
+    mirrored.excess.row(y)[x] = excess;
+    mirrored.fine.row(y)[x] = share * steepness_of(all);
+    mirrored.belief.row(y)[x] = std::clamp((skin - kWhite * all) / (kWhite * all + 1e-6F), 0.0F, 1.0F);
+  }
 }
 
 // Next to a grey wall or an eye the Gaussian mixes skin with what is none: nothing is believed there.
@@ -294,34 +286,30 @@ void spread(const Plane<float>& cells, int y, float* to) {
 // What single pores and creases mirror: what a pixel is brighter than its colour says, beyond that of its
 // cell. `room`: as wide and high as `fine`, or more.
 void find_fine(const RectifiedView& view, int width_px, const Part& part, const Plane<float>& ratio,
-               const Mirrored& mirrored, Plane<float>& fine, Plane<float>& room, int begin, int end) {
-  for (int y = begin; y < end; ++y) {
-    const std::size_t first = first_pixel(part, y, width_px);
-    float *to = fine.row(y), *cells = room.row(y);
-    spread(mirrored.light, y, to);
-    spread(ratio, y, cells);
-    for (int x = 0; x < fine.width; ++x) {
-      const Pixel pixel = pixel_of(view, first + std::size_t(x));
-      to[x] = pixel.known ? pixel.all() - cells[x] * pixel.colour() - to[x] : 0;
-    }
-    spread(mirrored.fine, y, cells);
-    for (int x = 0; x < fine.width; ++x) to[x] *= cells[x];
+               const Mirrored& mirrored, Plane<float>& fine, Plane<float>& room, int y) {
+  const std::size_t first = first_pixel(part, y, width_px);
+  float *to = fine.row(y), *cells = room.row(y);
+  spread(mirrored.light, y, to);
+  spread(ratio, y, cells);
+  for (int x = 0; x < fine.width; ++x) {
+    const Pixel pixel = pixel_of(view, first + std::size_t(x));
+    to[x] = pixel.known ? pixel.all() - cells[x] * pixel.colour() - to[x] : 0;
   }
+  spread(mirrored.fine, y, cells);
+  for (int x = 0; x < fine.width; ++x) to[x] *= cells[x];
 }
 
 // Takes what is mirrored out of the grey values, and keeps how much there was.
 void subtract(const Mirrored& mirrored, const Plane<float>& fine, const Part& part, int width_px,
-              RectifiedView& view, Plane<float>& room, int begin, int end) {
-  for (int y = begin; y < end; ++y) {
-    const std::size_t first = first_pixel(part, y, width_px);
-    float *to = view.grey.data() + first, *coarse = room.row(y);
-    const float* pores = fine.row(y);
-    spread(mirrored.taken, y, coarse);
-    for (int x = 0; x < fine.width; ++x) to[x] = std::max(0.0F, to[x] - std::max(0.0F, coarse[x] + pores[x]));
-    spread(mirrored.excess, y, coarse);
-    for (int x = 0; x < fine.width; ++x)
-      view.mirrored[first + std::size_t(x)] = std::uint8_t(std::min(coarse[x] + 0.5F, 255.0F));
-  }
+              RectifiedView& view, Plane<float>& room, int y) {
+  const std::size_t first = first_pixel(part, y, width_px);
+  float *to = view.grey.data() + first, *coarse = room.row(y);
+  const float* pores = fine.row(y);
+  spread(mirrored.taken, y, coarse);
+  for (int x = 0; x < fine.width; ++x) to[x] = std::max(0.0F, to[x] - std::max(0.0F, coarse[x] + pores[x]));
+  spread(mirrored.excess, y, coarse);
+  for (int x = 0; x < fine.width; ++x)
+    view.mirrored[first + std::size_t(x)] = std::uint8_t(std::min(coarse[x] + 0.5F, 255.0F));
 }
 
 void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, const Gaussian& gaussian,
@@ -331,9 +319,7 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   if (part.width == 0 || part.height == 0) return;
   Light light{{&context.scratch, part.width, part.height}, {&context.scratch, part.width, part.height}};
   Plane<float> room(&context.scratch, part.width + 2 * gaussian.reach(), part.height);
-  context.pool.for_each_band(part.height, kRowBands, [&](int begin, int end, int) {
-    gather(view, pair.width_px, part, light, begin, end);
-  });
+  context.pool.for_each(part.height, kRowBands, [&](int y) { gather(view, pair.width_px, part, light, y); });
   gaussian.smooth(light.all, context.pool, room);
   gaussian.smooth(light.colour, context.pool, room);
   const Part skin = skin_of(pair, right, part);
@@ -347,24 +333,22 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   const FineColours colours =
       fine_colours_of(view, pair.width_px, part, skin, light, local, &context.scratch);
   Mirrored mirrored{plane(), plane(), plane(), plane(), plane()};
-  context.pool.for_each_band(part.height, kRowBands, [&](int begin, int end, int) {
-    find_mirrored(light, local, colours, mirrored, begin, end);
-  });
+  context.pool.for_each(part.height, kRowBands,
+                        [&](int y) { find_mirrored(light, local, colours, mirrored, y); });
   weigh(mirrored, float(options.least), 2 * gaussian.reach() / 3, context.pool, room);
   const Gaussian pixel(kFineRadius);
   Plane<float> fine(&context.scratch, part.width * kCell, part.height * kCell);
   Plane<float> wide(&context.scratch, fine.width + 2 * pixel.reach(), fine.height);
   if (colours.trust > 0) {
-    context.pool.for_each_band(fine.height, kRowBands, [&](int begin, int end, int) {
-      find_fine(view, pair.width_px, part, local, mirrored, fine, wide, begin, end);
+    context.pool.for_each(fine.height, kRowBands, [&](int y) {
+      find_fine(view, pair.width_px, part, local, mirrored, fine, wide, y);
     });
     pixel.smooth(fine, context.pool, wide);
   }
   view.pores_left = 1 - colours.trust;
   view.mirrored.assign(pair.pixels(), 0);
-  context.pool.for_each_band(fine.height, kRowBands, [&](int begin, int end, int) {
-    subtract(mirrored, fine, part, pair.width_px, view, wide, begin, end);
-  });
+  context.pool.for_each(fine.height, kRowBands,
+                        [&](int y) { subtract(mirrored, fine, part, pair.width_px, view, wide, y); });
 }
 
 }  // namespace

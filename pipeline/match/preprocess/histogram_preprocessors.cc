@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 
 namespace relievo::pipeline {
 namespace {
@@ -37,13 +36,11 @@ struct Overlap {
 GreyHistogram GreyHistogram::of(const std::pmr::vector<float>& grey, int width_px, int height_px,
                                 const Wanted& wanted, ThreadPool& pool) {
   std::array<std::array<std::uint64_t, kLevels>, kBands> counts{};
-  pool.for_each_band(height_px, kBands, [&](int begin, int end, int band) {
+  pool.for_each(height_px, kBands, [&](int y, int band) {
     auto& count = counts[std::size_t(band)];
-    for (int y = begin; y < end; ++y) {
-      const float* row = grey.data() + std::ptrdiff_t(y) * width_px;
-      for (int x = 0; x < width_px; ++x)
-        if (wanted(x, y)) ++count[std::size_t(std::clamp(std::lround(row[x]), 0L, kLevels - 1L))];
-    }
+    const float* row = grey.data() + std::ptrdiff_t(y) * width_px;
+    for (int x = 0; x < width_px; ++x)
+      if (wanted(x, y)) ++count[std::size_t(std::clamp(std::lround(row[x]), 0L, kLevels - 1L))];
   });
   GreyHistogram histogram;
   for (std::size_t k = 0; k < kLevels; ++k) {
@@ -86,12 +83,10 @@ void map_greys(std::pmr::vector<float>& greys, ThreadPool& pool, const Map& map)
   constexpr int kPerLevel = 16;
   std::array<float, 255 * kPerLevel + 1> table{};
   for (std::size_t k = 0; k < table.size(); ++k) table[k] = float(map(double(k) / kPerLevel));
-  pool.for_each_band(int(greys.size()), kBands, [&](int begin, int end, int) {
-    for (float& grey : std::span(greys).subspan(std::size_t(begin), std::size_t(end - begin))) {
-      const float at = std::clamp(grey, 0.0F, 255.0F) * kPerLevel;
-      const auto k = std::min(std::size_t(at), table.size() - 2);
-      grey = table[k] + (at - float(k)) * (table[k + 1] - table[k]);
-    }
+  pool.for_each<std::size_t>(int(greys.size()), kBands, [&](std::size_t i) {
+    const float at = std::clamp(greys[i], 0.0F, 255.0F) * kPerLevel;
+    const auto k = std::min(std::size_t(at), table.size() - 2);
+    greys[i] = table[k] + (at - float(k)) * (table[k + 1] - table[k]);
   });
 }
 

@@ -8,24 +8,20 @@
 
 #include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/model/calibration.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 
-void grey_rows(const ImageView& image, float* to, int stride, int begin, int end) {
-  to += std::ptrdiff_t(begin) * stride;
-  for (int y = begin; y < end; ++y, to += stride) {
-    const std::uint8_t* from = image.row(y);
-    if (image.format == PixelFormat::Rgb8) {
-      for (int x = 0; x < image.width_px; ++x)
-        to[x] = float(from[3 * x] + from[3 * x + 1] + from[3 * x + 2]) * (1.0F / 3);
-    } else if (image.format == PixelFormat::Grey16) {
-      const auto* wide = reinterpret_cast<const std::uint16_t*>(from);
-      for (int x = 0; x < image.width_px; ++x) to[x] = float(wide[x]) * (1.0F / 257);
-    } else {
-      for (int x = 0; x < image.width_px; ++x) to[x] = float(from[x]);
-    }
+void grey_row(const ImageView& image, int y, float* to) {
+  const std::uint8_t* from = image.row(y);
+  if (image.format == PixelFormat::Rgb8) {
+    for (int x = 0; x < image.width_px; ++x)
+      to[x] = float(from[3 * x] + from[3 * x + 1] + from[3 * x + 2]) * (1.0F / 3);
+  } else if (image.format == PixelFormat::Grey16) {
+    const auto* wide = reinterpret_cast<const std::uint16_t*>(from);
+    for (int x = 0; x < image.width_px; ++x) to[x] = float(wide[x]) * (1.0F / 257);
+  } else {
+    for (int x = 0; x < image.width_px; ++x) to[x] = float(from[x]);
   }
 }
 
@@ -125,67 +121,63 @@ struct ViewGeometry {
   Vec2d centre_px;
 };
 
-// One band of rows of one view.
+// One row of one view.
 void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const ImageView& image,
-              const Plane<float>& grey, RectifiedView& view, int begin, int end) {
+              const Plane<float>& grey, RectifiedView& view, int y) {
   const int width = pair.width_px;
-  const auto knot = [&](int x, int y) {
+  const auto knot = [&](int x, int row) {
     return source_pixel(geometry.camera, geometry.rectified_from_camera, pair.focal_px, geometry.centre_px,
-                        {double(x), double(y)});
+                        {double(x), double(row)});
   };
   Span span{};
-  for (int y = begin; y < end; ++y) {
-    const int y0 = y / kKnotPx * kKnotPx;
-    const double ty = double(y - y0) / kKnotPx;
-    const auto edge = [&](int x) {
-      const Vec2d a = knot(x, y0);
-      const Vec2d b = knot(x, y0 + kKnotPx);
-      return Vec2d{a.x + ty * (b.x - a.x), a.y + ty * (b.y - a.y)};
-    };
-    Vec2d from = edge(0);
-    for (int x0 = 0; x0 < width; x0 += kKnotPx) {
-      const Vec2d to = edge(x0 + kKnotPx);
-      const double dx = (to.x - from.x) / kKnotPx;
-      const double dy = (to.y - from.y) / kKnotPx;
-      // The source runs along a line, so the pixels of it that the picture holds are a run.
-      int first = 0;
-      int count = 0;
-      for (int i = 0; i < std::min(width - x0, kKnotPx); ++i) {
-        const double sx = from.x + dx * i;
-        const double sy = from.y + dy * i;
-        if (!(sx >= 1 && sy >= 1 && sx < image.width_px - 2 && sy < image.height_px - 2)) continue;
-        if (count == 0) first = i;
-        const auto at = std::size_t(count++);
-        span.x[at] = int(sx);
-        span.y[at] = int(sy);
-        span.tx[at] = float(sx - span.x[at]);
-        span.ty[at] = float(sy - span.y[at]);
-      }
-      sample_grey(grey.row(0), grey.width, count, span);
-      const std::size_t k = pair.index(x0 + first, y);
-      for (std::size_t i = 0; i < std::size_t(count); ++i) {
-        view.grey[k + i] = span.grey[i];
-        sample_rgb(image, span.x[i], span.y[i], span.tx[i], span.ty[i], &view.rgb[3 * (k + i)]);
-        view.valid[k + i] = 1;
-      }
-      from = to;
+  const int y0 = y / kKnotPx * kKnotPx;
+  const double ty = double(y - y0) / kKnotPx;
+  const auto edge = [&](int x) {
+    const Vec2d a = knot(x, y0);
+    const Vec2d b = knot(x, y0 + kKnotPx);
+    return Vec2d{a.x + ty * (b.x - a.x), a.y + ty * (b.y - a.y)};
+  };
+  Vec2d from = edge(0);
+  for (int x0 = 0; x0 < width; x0 += kKnotPx) {
+    const Vec2d to = edge(x0 + kKnotPx);
+    const double dx = (to.x - from.x) / kKnotPx;
+    const double dy = (to.y - from.y) / kKnotPx;
+    // The source runs along a line, so the pixels of it that the picture holds are a run.
+    int first = 0;
+    int count = 0;
+    for (int i = 0; i < std::min(width - x0, kKnotPx); ++i) {
+      const double sx = from.x + dx * i;
+      const double sy = from.y + dy * i;
+      if (!(sx >= 1 && sy >= 1 && sx < image.width_px - 2 && sy < image.height_px - 2)) continue;
+      if (count == 0) first = i;
+      const auto at = std::size_t(count++);
+      span.x[at] = int(sx);
+      span.y[at] = int(sy);
+      span.tx[at] = float(sx - span.x[at]);
+      span.ty[at] = float(sy - span.y[at]);
     }
+    sample_grey(grey.row(0), grey.width, count, span);
+    const std::size_t k = pair.index(x0 + first, y);
+    for (std::size_t i = 0; i < std::size_t(count); ++i) {
+      view.grey[k + i] = span.grey[i];
+      sample_rgb(image, span.x[i], span.y[i], span.tx[i], span.ty[i], &view.rgb[3 * (k + i)]);
+      view.valid[k + i] = 1;
+    }
+    from = to;
   }
 }
 
 Result<void> check_bytes(const ImageView& image, const char* side) {
-  if (image.empty()) return Error{Errc::InvalidInput, "the picture is empty: capture again"}.at(side);
-  if (image.rows_overlap())
-    return Error{Errc::InvalidInput, "the picture's stride is shorter than its rows"}.at(side);
+  if (image.empty()) return invalid("the picture is empty: capture again").at(side);
+  if (image.rows_overlap()) return invalid("the picture's stride is shorter than its rows").at(side);
   return {};
 }
 
 Result<void> check_picture(const ImageView& image, const CameraIntrinsics& camera, const char* side) {
   RELIEVO_TRY(check_bytes(image, side));
   if (image.width_px != camera.width_px || image.height_px != camera.height_px)
-    return Error{
-        Errc::InvalidInput,
-        "the picture's size is not the calibration's: use pictures of the calibrated size, or calibrate at this one"}
+    return invalid(
+               "the picture's size is not the calibration's: use pictures of the calibrated size, or calibrate at this one")
         .at(side);
   return {};
 }
@@ -208,10 +200,9 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   // baseline's, so the window stands upright as the people do.
   const double sideways = std::hypot(baseline.x, baseline.y);
   if (!(baseline_mm > 1) || sideways < 0.5 * baseline_mm)
-    return Error{Errc::InvalidInput, "the cameras must stand beside each other, not behind"};
+    return invalid("the cameras must stand beside each other, not behind");
   if (baseline.x <= 0 && -baseline.x >= std::abs(baseline.y))
-    return Error{Errc::InvalidInput,
-                 "the right camera must stand to the right of the left one: are the cameras swapped?"};
+    return invalid("the right camera must stand to the right of the left one: are the cameras swapped?");
   const Vec3d x = times(baseline, 1 / baseline_mm);
   const Vec3d right_axis = apply(left_from_right.rotation, {0, 0, 1});
   Vec3d z = {right_axis.x, right_axis.y, right_axis.z + 1};
@@ -235,7 +226,7 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   const double columns = std::ceil(width) + 1, rows = std::floor(bottom - top) + 1;
   // Before they become numbers of pixels: a box that holds no ray is no size at all.
   if (!(columns <= options.longest_side_px && rows >= 64 && rows <= options.longest_side_px))
-    return Error{Errc::InvalidInput, "the two cameras do not look at a common volume: calibrate again"};
+    return invalid("the two cameras do not look at a common volume: calibrate again");
   pair.width_px = int(columns);
   pair.height_px = int(rows);
   const auto centred = [width](const Box& box) { return width / 2 - (box.left + box.right) / 2; };
@@ -246,7 +237,7 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
 
 Result<void> RectifierOptions::check() const {
   if (!(near_mm > 0 && far_mm > near_mm))
-    return Error{Errc::InvalidInput, "rectifier: near_mm must be positive and smaller than far_mm"};
+    return invalid("rectifier: near_mm must be positive and smaller than far_mm");
   return {};
 }
 
@@ -270,12 +261,8 @@ Result<RectifiedPair> RectifierOptions::rectify(const StereoFrame& frame,
     const ViewGeometry geometry{side == 0 ? calibration.left : calibration.right,
                                 side == 0 ? pair.rectified_from_left : pair.rectified_from_right,
                                 side == 0 ? pair.left_centre_px : pair.right_centre_px};
-    context.pool.for_each_band(image.height_px, 16, [&](int begin, int end, int) {
-      grey_rows(image, grey.row(0), grey.width, begin, end);
-    });
-    context.pool.for_each_band(pair.height_px, 16, [&](int begin, int end, int) {
-      resample(pair, geometry, image, grey, view, begin, end);
-    });
+    context.pool.for_each(image.height_px, 16, [&](int y) { grey_row(image, y, grey.row(y)); });
+    context.pool.for_each(pair.height_px, 16, [&](int y) { resample(pair, geometry, image, grey, view, y); });
     context.progress.done.store(side == 0 ? 0.5F : 1.0F, std::memory_order_relaxed);
   }
   return pair;
@@ -290,15 +277,13 @@ void take_view(const ImageView& image, RectifiedView& view, StageContext& contex
   view.grey.resize(pixels);
   view.rgb.resize(3 * pixels);
   view.valid.assign(pixels, 1);
-  context.pool.for_each_band(image.height_px, 16, [&](int begin, int end, int) {
-    grey_rows(image, view.grey.data(), image.width_px, begin, end);
-    for (int y = begin; y < end; ++y) {
-      std::uint8_t* to = view.rgb.data() + 3 * std::ptrdiff_t(y) * image.width_px;
-      const float* grey = view.grey.data() + std::ptrdiff_t(y) * image.width_px;
-      if (image.format == PixelFormat::Rgb8) std::copy_n(image.row(y), 3 * image.width_px, to);
-      else
-        for (int x = 0; x < image.width_px; ++x) std::fill_n(to + 3 * x, 3, std::uint8_t(grey[x]));
-    }
+  context.pool.for_each(image.height_px, 16, [&](int y) {
+    std::uint8_t* to = view.rgb.data() + 3 * std::ptrdiff_t(y) * image.width_px;
+    float* grey = view.grey.data() + std::ptrdiff_t(y) * image.width_px;
+    grey_row(image, y, grey);
+    if (image.format == PixelFormat::Rgb8) std::copy_n(image.row(y), 3 * image.width_px, to);
+    else
+      for (int x = 0; x < image.width_px; ++x) std::fill_n(to + 3 * x, 3, std::uint8_t(grey[x]));
   });
 }
 
@@ -306,8 +291,7 @@ void take_view(const ImageView& image, RectifiedView& view, StageContext& contex
 
 Result<void> DisparityRange::check() const {
   if (least_px >= -4096 && most_px <= 4096 && least_px < most_px) return {};
-  return Error{Errc::InvalidInput,
-               "disparities: two whole numbers of pixels are wanted, the smaller first, within 4096"};
+  return invalid("disparities: two whole numbers of pixels are wanted, the smaller first, within 4096");
 }
 
 Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range,
@@ -316,7 +300,7 @@ Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRa
   RELIEVO_TRY(check_bytes(frame.left, "left"));
   RELIEVO_TRY(check_bytes(frame.right, "right"));
   if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px)
-    return Error{Errc::InvalidInput, "the two pictures of a rectified pair differ in size"};
+    return invalid("the two pictures of a rectified pair differ in size");
   RectifiedPair pair(&context.output);
   pair.width_px = frame.left.width_px;
   pair.height_px = frame.left.height_px;

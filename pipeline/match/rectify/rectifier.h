@@ -21,10 +21,9 @@
 
 namespace relievo::pipeline {
 
-// Grey values 0 to 255 of a picture's rows, whatever its format: 16 bit scaled down, colour as the mean of
-// its channels, the least noise for texture that all three share. Row y goes to `to + y * stride`. Thread:
-// any.
-void grey_rows(const ImageView& image, float* to, int stride, int begin, int end);
+// Grey values 0 to 255 of a picture's row, whatever its format: 16 bit scaled down, colour as the mean of
+// its channels, the least noise for texture that all three share. Thread: any.
+void grey_row(const ImageView& image, int y, float* to);
 
 struct RectifierOptions {
   double near_mm = 400;  // the volume in which a surface is looked for, along the rectified z axis

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-
-#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -70,13 +67,11 @@ void add_row(const Views& v, int y, float shift, Tiles& tiles) {
 }
 
 void try_shift(const Views& views, int shift, ThreadPool& pool, Tiles& tiles) {
-  pool.for_each_band(tiles.score.height, tiles.score.height, [&](int begin, int end, int) {
-    for (int t = begin; t < end; ++t) {
-      for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
-        std::fill_n(plane->row(t), plane->width, 0.0F);
-      for (int y = t * kTile; y < std::min((t + 1) * kTile, views.left.height); ++y)
-        add_row(views, y, float(shift), tiles);
-    }
+  pool.for_each(tiles.score.height, tiles.score.height, [&](int t) {
+    for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
+      std::fill_n(plane->row(t), plane->width, 0.0F);
+    for (int y = t * kTile; y < std::min((t + 1) * kTile, views.left.height); ++y)
+      add_row(views, y, float(shift), tiles);
   });
   for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
     box_sum(*plane, kWindowRadius, pool, tiles.across, *plane);
@@ -105,18 +100,6 @@ float between_tiles(const Plane<float>& tiles, int x, int y) {
   return (1 - ty) * (upper[0] + tx * (upper[1] - upper[0])) + ty * (lower[0] + tx * (lower[1] - lower[0]));
 }
 
-// Leaves the shifts of clearly better tiles alone, and says how many they are.
-std::size_t keep_clear_shifts(Tiles& tiles) {
-  std::size_t moved = 0;
-  for (std::size_t k = 0; k < tiles.shift.values.size(); ++k) {
-    const bool clear =
-        tiles.score.values[k] > kLeast && tiles.score.values[k] > tiles.here.values[k] + kMargin;
-    if (!clear) tiles.shift.values[k] = 0;
-    moved += tiles.shift.values[k] != 0 ? 1U : 0U;
-  }
-  return moved;
-}
-
 }  // namespace
 
 bool search_by_detail(const RefinerScene& scene, StageContext& context, SurfaceField& field) {
@@ -136,7 +119,15 @@ bool search_by_detail(const RefinerScene& scene, StageContext& context, SurfaceF
   const Views views{scene, field, left, right};
   for (int shift = -kReach; shift <= kReach && !context.stop(); ++shift)
     try_shift(views, shift, context.pool, tiles);
-  if (keep_clear_shifts(tiles) < kLeastTiles) return false;
+  // Only the shifts of clearly better tiles stay.
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < tiles.shift.values.size(); ++k) {
+    const bool clear =
+        tiles.score.values[k] > kLeast && tiles.score.values[k] > tiles.here.values[k] + kMargin;
+    if (!clear) tiles.shift.values[k] = 0;
+    moved += tiles.shift.values[k] != 0 ? 1U : 0U;
+  }
+  if (moved < kLeastTiles) return false;
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
       if (field.domain.row(y)[x] != 0)

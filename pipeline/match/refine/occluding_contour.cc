@@ -8,8 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/match/image/plane_filters.h"
-
 namespace relievo::pipeline {
 namespace {
 
@@ -185,19 +183,6 @@ void disagree_least(const ContourViews& views, const Plane<float>& d, StageConte
   }
 }
 
-void measure_disagreement(const RefinerScene& scene, const SurfaceField& field,
-                          const std::pmr::vector<Curtain>& curtains, const Surfaces& surfaces,
-                          StageContext& context, Disagreement& sums) {
-  const int w = field.domain.width, h = field.domain.height;
-  Plane<float> offset(&context.scratch, w, h), across(&context.scratch, w, h), asked(&context.scratch, w, h);
-  measure_offset(scene, field, surfaces, context, offset);
-  box_sum(surfaces.asked, kWindow, context.pool, across, asked);
-  const ContourViews views{scene, curtains, offset, asked};
-  disagree_least(views, surfaces.before, context, sums.before);
-  disagree_least(views, surfaces.behind, context, sums.behind);
-  disagree(views, field.disparity_px, 0, context.pool, across, sums.now);
-}
-
 // The first node of the surface behind the cut; none where the curtain explains the views better.
 std::optional<int> best_cut(const Curtain& curtain, const Disagreement& sums) {
   float sum = 0;
@@ -225,7 +210,13 @@ int cut_along(bool rows, const RefinerScene& scene, StageContext& context, Surfa
   const auto curtains = find_curtains(field, rows, surfaces, &context.scratch);
   if (curtains.empty()) return 0;
   Disagreement sums{shape};
-  measure_disagreement(scene, field, curtains, surfaces, context, sums);
+  Plane<float> offset(shape), across(shape), asked(shape);
+  measure_offset(scene, field, surfaces, context, offset);
+  box_sum(surfaces.asked, kWindow, context.pool, across, asked);
+  const ContourViews views{scene, curtains, offset, asked};
+  disagree_least(views, surfaces.before, context, sums.before);
+  disagree_least(views, surfaces.behind, context, sums.behind);
+  disagree(views, field.disparity_px, 0, context.pool, across, sums.now);
   int lines = 0;
   for (const Curtain& curtain : curtains) {
     const auto cut = best_cut(curtain, sums);

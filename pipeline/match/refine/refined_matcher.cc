@@ -7,9 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/epipolar/row_aligner.h"
-#include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/match/region/face_reach.h"
 #include "pipeline/match/window/window_correlation.h"
 
@@ -138,14 +136,6 @@ void densify(const SurfaceField& from, SurfaceField& to) {
     }
 }
 
-double bending_weight(const RectifiedPair& pair, float bending) {
-  // Curvature k (1/mm) bends the disparity by k * baseline / focal a square pixel; a pixel covers
-  // (z / focal)^2 square millimetres. Middle of the volume: the weight must not follow the noise.
-  const double z = 2 / (1 / pair.near_mm + 1 / pair.far_mm);
-  const double per_px = bending * pair.baseline_mm / pair.focal_px;
-  return (z / pair.focal_px) * (z / pair.focal_px) / (per_px * per_px);
-}
-
 // Bilinear between four nodes of the domain, or at its rim the nearest.
 bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
   const float fx = at.x / float(field.step_px);
@@ -219,7 +209,11 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   Pyramids pyramids = build_pyramids(pair, kLevels, context);
-  const double lambda = bending_weight(pair, o.refiner.bending);
+  // Curvature k (1/mm) bends the disparity by k * baseline / focal a square pixel; a pixel covers
+  // (z / focal)^2 square millimetres. Middle of the volume: the weight must not follow the noise.
+  const double z = 2 / (1 / pair.near_mm + 1 / pair.far_mm);
+  const double per_px = double(o.refiner.bending) * pair.baseline_mm / pair.focal_px;
+  const double lambda = (z / pair.focal_px) * (z / pair.focal_px) / (per_px * per_px);
   const auto scene_at = [&](int level) {
     return RefinerScene{pyramids.left[std::size_t(level)].grey, pyramids.right[std::size_t(level)].grey,
                         pyramids.right[std::size_t(level)].valid, level, lambda};
@@ -271,7 +265,7 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
 Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {
   if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
-    return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
+    return invalid("the rectified pair is smaller than 64 pixels");
   if (!is_small_scene(pair)) return match_at_size(*this, pair, keypoints, context);
   RELIEVO_TRY_ASSIGN(MatchSet found, match_at_size(*this, enlarge(pair, &context.scratch),
                                                    enlarge(keypoints, &context.scratch), context));

@@ -6,9 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/match/bending/bending_system.h"
-#include "pipeline/match/image/plane_filters.h"
-
 namespace relievo::pipeline {
 namespace {
 
@@ -23,12 +20,6 @@ constexpr int kMeanRadius = 6;  // over which the blocks' variance is taken
 float left_by_the_fit(float reach) { return 1 / (1 + std::pow(3.05F * reach, 1.95F)); }
 
 constexpr float kLeastExcess = 0.5F;  // calmer by more is chance. Cut off at 1, the mean would be too large.
-
-// Tents overlap by half: a block of them counts the pixels along its edges in part.
-float tent_share(int step) {
-  const float along = step == 1 ? 1.0F : (2.0F * kBlock - 0.5F) / (2.0F * kBlock);
-  return along * along;
-}
 
 }  // namespace
 
@@ -47,7 +38,8 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
   box_sum(answers, kMeanRadius, pool, across, answers);
   box_sum(system.bend_xx, kMeanRadius, pool, across, bend);
   constexpr float kCells = kBlock * kBlock;
-  const float share = tent_share(step);
+  // Tents overlap by half: a block of them counts the pixels along its edges in part.
+  const float along = step == 1 ? 1.0F : (2.0F * kBlock - 0.5F) / (2.0F * kBlock), share = along * along;
   for (std::size_t k = 0; k < excess.values.size(); ++k) {
     if (!(told.values[k] > 0 && bend.values[k] > 0)) {
       excess.values[k] = 1;
@@ -99,7 +91,7 @@ float hanging_noise(const WarpTerms& terms, ThreadPool& pool) {
   // A shift and its opposite say the same: half of them, after none at all.
   constexpr int kShifts = kFurthest * (2 * kFurthest + 2) + 1;
   std::array<Alike, kShifts> alike;
-  pool.for_each_band(kShifts, kShifts, [&](int, int, int k) {
+  pool.for_each(kShifts, kShifts, [&](int k) {
     const int side = 2 * kFurthest + 1;
     const int dy = (k + kFurthest) / side;
     alike[std::size_t(k)] = likeness(terms, (k + kFurthest) % side - kFurthest, dy);
@@ -161,37 +153,27 @@ struct Work {
 // Adds what every pixel says to the nodes around it.
 void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, Work& work, ThreadPool& pool) {
   BendingSystem& system = work.system;
-  pool.for_each_band(system.height(), kRefinedBands, [&](int begin, int end, int) {
-    for (int j = begin; j < end; ++j)
-      for (int i = 0; i < system.width(); ++i) {
-        float a = 0;
-        float b = 0;
-        float real = 0;
-        for (int dy = 1 - step; dy < step; ++dy)
-          for (int dx = 1 - step; dx < step; ++dx) {
-            const int x = i * step + dx;
-            const int y = j * step + dy;
-            if (x < 0 || y < 0 || x >= terms.weight.width || y >= terms.weight.height) continue;
-            const float tent = (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);
-            const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
-            a += wg * terms.gradient.row(y)[x];
-            b += wg * terms.residual.row(y)[x];
-            if (agreed != nullptr) real += tent * terms.weight.row(y)[x] * agreed->row(y)[x];
-          }
-        system.data.row(j)[i] = a;
-        work.pull.row(j)[i] = b;
-        work.agreed.row(j)[i] = real;
-      }
-  });
-}
-
-void load(const SurfaceField& field, const Window& nodes, Work& work) {
-  for (int y = 0; y < nodes.height; ++y)
-    for (int x = 0; x < nodes.width; ++x) {
-      const bool border = x == 0 || y == 0 || x == nodes.width - 1 || y == nodes.height - 1;
-      work.d.row(y)[x] = field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x];
-      work.domain.row(y)[x] = border ? std::uint8_t{0} : field.domain.row(nodes.y0 + y)[nodes.x0 + x];
+  pool.for_each(system.height(), kRefinedBands, [&](int j) {
+    for (int i = 0; i < system.width(); ++i) {
+      float a = 0;
+      float b = 0;
+      float real = 0;
+      for (int dy = 1 - step; dy < step; ++dy)
+        for (int dx = 1 - step; dx < step; ++dx) {
+          const int x = i * step + dx;
+          const int y = j * step + dy;
+          if (x < 0 || y < 0 || x >= terms.weight.width || y >= terms.weight.height) continue;
+          const float tent = (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);
+          const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
+          a += wg * terms.gradient.row(y)[x];
+          b += wg * terms.residual.row(y)[x];
+          if (agreed != nullptr) real += tent * terms.weight.row(y)[x] * agreed->row(y)[x];
+        }
+      system.data.row(j)[i] = a;
+      work.pull.row(j)[i] = b;
+      work.agreed.row(j)[i] = real;
     }
+  });
 }
 
 // The prior expects bends of every length alike; of skin the short ones are less (relief and pores apart, it
@@ -248,13 +230,6 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
     }
 }
 
-// Steps are cheap at the smallest size, and what starts far off needs them; in between it is done soonest.
-int steps_at(int level, int steps) {
-  if (level == 0) return steps;
-  const int fewer = std::max(1, steps - 1);
-  return level >= kFarLevel ? 2 * fewer : fewer;
-}
-
 }  // namespace
 
 Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,
@@ -270,13 +245,20 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   // Only the finest size can tell relief from what a smaller one blurs together.
   const BendingExpectation expected{lambda, options.crease * expected_bend,
                                     scene.level == 0 ? options.wrinkle * expected_bend : 0};
-  const int steps = steps_at(scene.level, options.steps);
+  // Steps are cheap at the smallest size, and what starts far off needs them; in between it is done soonest.
+  const int fewer = std::max(1, options.steps - 1);
+  const int steps = scene.level == 0 ? options.steps : scene.level >= kFarLevel ? 2 * fewer : fewer;
   float hanging = 1;
   for (int k = 0; k < steps; ++k) {
     if (context.stop()) return stopped();
     Arena::Mark mark(context.scratch);
     Work work{{&context.scratch, nodes.width, nodes.height}};
-    load(field, nodes, work);
+    for (int y = 0; y < nodes.height; ++y)
+      for (int x = 0; x < nodes.width; ++x) {
+        const bool border = x == 0 || y == 0 || x == nodes.width - 1 || y == nodes.height - 1;
+        work.d.row(y)[x] = field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x];
+        work.domain.row(y)[x] = border ? std::uint8_t{0} : field.domain.row(nodes.y0 + y)[nodes.x0 + x];
+      }
     WarpTerms terms(&context.scratch, extent.pixels.width, extent.pixels.height);
     const bool last = k == steps - 1;
     Plane<float> agreed(&context.scratch, last ? extent.pixels.width : 0, last ? extent.pixels.height : 0);

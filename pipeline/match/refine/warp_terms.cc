@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "hal/base/simd.h"
-#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -164,13 +163,11 @@ void sum_windows(const RefinerScene& scene, const SurfaceField& field, const Win
                  ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
   const int w = window.width;
   Warped warped{sums.left, terms.residual, terms.gradient, terms.mask};
-  pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      warp_row(scene, field, window, y, warped);
-      multiply_row(sums.left.row(y), sums.left.row(y), w, sums.left_left.row(y));
-      multiply_row(terms.residual.row(y), terms.residual.row(y), w, sums.right_right.row(y));
-      multiply_row(sums.left.row(y), terms.residual.row(y), w, sums.left_right.row(y));
-    }
+  pool.for_each(window.height, kBands, [&](int y) {
+    warp_row(scene, field, window, y, warped);
+    multiply_row(sums.left.row(y), sums.left.row(y), w, sums.left_left.row(y));
+    multiply_row(terms.residual.row(y), terms.residual.row(y), w, sums.right_right.row(y));
+    multiply_row(sums.left.row(y), terms.residual.row(y), w, sums.left_right.row(y));
   });
   box_sum(terms.mask, radius, pool, sums.across, sums.count);
   box_sum(sums.left, radius, pool, sums.across, sums.left);
@@ -201,36 +198,20 @@ void form_residuals(const RefinerScene& scene, const Window& window, WindowSums&
   const int w = window.width;
   const float gain = gain_of(sums, terms.mask);
   const float level_scale = 1.0F / float(1 << scene.level);
-  pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const Moments m{sums.count.row(y),     sums.left.row(y),        sums.right.row(y),
-                      sums.left_left.row(y), sums.right_right.row(y), sums.left_right.row(y)};
-      // Where nobody asks for it the product goes to a row that has had its day.
-      const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y),
-                         agreed != nullptr ? agreed->row(y) : sums.right_right.row(y)};
-      const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0,
-                           terms.residual.row(y), terms.gradient.row(y)};
-      // A pixel on the picture's own edge has no slope, and the mask is 0 there.
-      const int begin_x = window.x0 == 0 ? 1 : 0;
-      const int end_x = window.x0 + w == scene.left.width ? w - 1 : w;
-      residual_row(m, views, begin_x, end_x, level_scale, gain, 16.0F, out);
-      for (const int x : {0, w - 1})
-        if (x < begin_x || x >= end_x) out.residual[x] = out.gradient[x] = out.agreed[x] = 0, out.cost[x] = 1;
-    }
-  });
-}
-
-// The offset soaks up what a slope of shading says: so must the gradient's own mean.
-void take_out_means(int radius, ThreadPool& pool, WarpTerms& terms, WindowSums& sums, Plane<float>* agreed) {
-  Plane<float>& gradient = sums.left;
-  box_sum(terms.gradient, radius, pool, sums.across, gradient);
-  pool.for_each_band(terms.mask.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < terms.mask.width; ++x) {
-        const float mean = terms.mask.row(y)[x] * gradient.row(y)[x] / std::max(sums.count.row(y)[x], 1.0F);
-        terms.gradient.row(y)[x] -= mean;
-        if (agreed != nullptr) agreed->row(y)[x] -= mean * mean;
-      }
+  pool.for_each(window.height, kBands, [&](int y) {
+    const Moments m{sums.count.row(y),     sums.left.row(y),        sums.right.row(y),
+                    sums.left_left.row(y), sums.right_right.row(y), sums.left_right.row(y)};
+    // Where nobody asks for it the product goes to a row that has had its day.
+    const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y),
+                       agreed != nullptr ? agreed->row(y) : sums.right_right.row(y)};
+    const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, terms.residual.row(y),
+                         terms.gradient.row(y)};
+    // A pixel on the picture's own edge has no slope, and the mask is 0 there.
+    const int begin_x = window.x0 == 0 ? 1 : 0;
+    const int end_x = window.x0 + w == scene.left.width ? w - 1 : w;
+    residual_row(m, views, begin_x, end_x, level_scale, gain, 16.0F, out);
+    for (const int x : {0, w - 1})
+      if (x < begin_x || x >= end_x) out.residual[x] = out.gradient[x] = out.agreed[x] = 0, out.cost[x] = 1;
   });
 }
 
@@ -241,18 +222,16 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
   Plane<float>& squares = sums.right_right;
   Plane<float>& count = sums.left_left;
   const float least = noise_variance(terms);  // of the residual over the whole surface
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      multiply_row(terms.residual.row(y), terms.residual.row(y), w, squares.row(y));
+  pool.for_each(h, kBands, [&](int y) {
+    multiply_row(terms.residual.row(y), terms.residual.row(y), w, squares.row(y));
   });
   box_sum(squares, kNoiseRadius, pool, sums.across, squares);
   box_sum(terms.mask, kNoiseRadius, pool, sums.across, count);
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < w; ++x) {
-        const float local = squares.row(y)[x] / std::max(count.row(y)[x], 1.0F);
-        terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, least);
-      }
+  pool.for_each(h, kBands, [&](int y) {
+    for (int x = 0; x < w; ++x) {
+      const float local = squares.row(y)[x] / std::max(count.row(y)[x], 1.0F);
+      terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, least);
+    }
   });
 }
 
@@ -264,7 +243,16 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
   WindowSums sums{{&context.scratch, terms.shape.width, terms.shape.height}, terms};
   sum_windows(scene, field, window, radius, context.pool, terms, sums);
   form_residuals(scene, window, sums, context.pool, terms, agreed);
-  take_out_means(radius, context.pool, terms, sums, agreed);
+  // The offset soaks up what a slope of shading says: so must the gradient's own mean.
+  Plane<float>& gradient = sums.left;
+  box_sum(terms.gradient, radius, context.pool, sums.across, gradient);
+  context.pool.for_each(terms.mask.height, kBands, [&](int y) {
+    for (int x = 0; x < terms.mask.width; ++x) {
+      const float mean = terms.mask.row(y)[x] * gradient.row(y)[x] / std::max(sums.count.row(y)[x], 1.0F);
+      terms.gradient.row(y)[x] -= mean;
+      if (agreed != nullptr) agreed->row(y)[x] -= mean * mean;
+    }
+  });
   weigh(context.pool, terms, sums);
 }
 

@@ -27,7 +27,7 @@ Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageCon
   if (context.stop()) return stopped();
   if (pair.width_px <= 0 || pair.height_px <= 0 || !(face.width_px > 0) || !std::isfinite(face.width_px) ||
       !std::isfinite(face.centre_px.x) || !std::isfinite(face.centre_px.y))
-    return Error{Errc::InvalidInput, "a face region needs a picture and a face of some size"};
+    return invalid("a face region needs a picture and a face of some size");
   const std::size_t width = std::size_t(pair.width_px);
   pair.region.assign(width * std::size_t(pair.height_px), 0);
   const double centre_y = face.centre_px.y + kDown * face.width_px;

@@ -65,28 +65,6 @@ cv::Mat reduced_grey(const ImageView& view) {
   return small;
 }
 
-cv::Matx23d turn_about_centre(const cv::Size& size, double angle_deg) {
-  const double a = angle_deg * std::numbers::pi / 180;
-  const double cx = (size.width - 1) / 2.0;
-  const double cy = (size.height - 1) / 2.0;
-  const double c = std::cos(a);
-  const double s = std::sin(a);
-  return {c, -s, cx - c * cx + s * cy, s, c, cy - s * cx - c * cy};
-}
-
-// The most votes times width win: of faces as certain the wider one, which is nearer.
-FaceBox best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
-  FaceBox best;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double worth = double(votes[i]) * boxes[i].width;
-    if (worth <= best.votes * best.width_px) continue;
-    best = {{boxes[i].x + (boxes[i].width - 1) / 2.0, boxes[i].y + (boxes[i].height - 1) / 2.0},
-            double(boxes[i].width),
-            votes[i]};
-  }
-  return best;
-}
-
 }  // namespace
 
 Result<void> load_cascade(const std::string& folder, FaceCascade which, cv::CascadeClassifier& cascade) {
@@ -107,7 +85,9 @@ struct FaceFinder::Cascades {
   // In the reduced picture.
   FaceBox look(const cv::Mat& grey, const cv::Mat& even, const Try& look_at) {
     cv::Mat picture = look_at.local_contrast ? even : grey;
-    const cv::Matx23d turn = turn_about_centre(grey.size(), look_at.tilt * kTiltDeg);
+    const double a = look_at.tilt * kTiltDeg * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
+    const double cx = (grey.cols - 1) / 2.0, cy = (grey.rows - 1) / 2.0;
+    const cv::Matx23d turn{c, -s, cx - c * cx + s * cy, s, c, cy - s * cx - c * cy};
     if (look_at.tilt != 0) {
       cv::Mat turned;
       cv::warpAffine(picture, turned, turn, picture.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
@@ -122,7 +102,14 @@ struct FaceFinder::Cascades {
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
     files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, kLeastVotes - 1, 0, {least, least});
-    FaceBox hit = best_of(boxes, votes);
+    // The most votes times width win: of faces as certain the wider one, which is nearer.
+    FaceBox hit;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (double(votes[i]) * boxes[i].width <= hit.votes * hit.width_px) continue;
+      hit = {{boxes[i].x + (boxes[i].width - 1) / 2.0, boxes[i].y + (boxes[i].height - 1) / 2.0},
+             double(boxes[i].width),
+             votes[i]};
+    }
     if (look_at.mirrored) hit.centre_px.x = grey.cols - 1 - hit.centre_px.x;
     if (look_at.tilt != 0) {
       cv::Matx23d back;
@@ -142,7 +129,7 @@ Result<FaceFinder> FaceFinder::open(const std::string& cascade_folder) {
 }
 
 Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<bool>* cancelled) const {
-  if (picture.empty()) return Error{Errc::InvalidInput, "a picture without pixels has no face"};
+  if (picture.empty()) return invalid("a picture without pixels has no face");
   try {
     const cv::Mat grey = reduced_grey(picture);
     cv::Mat even;

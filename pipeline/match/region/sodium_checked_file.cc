@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <cstdint>
 #include <fstream>
 #include <string_view>
 

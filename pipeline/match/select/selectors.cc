@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 #include <random>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,9 +30,8 @@ Result<Keypoints> GridSelector::select(const RectifiedPair& pair, StageContext& 
                          last_of(top_px, height_px, pair.height_px)};
   if (area.left > area.right || area.top > area.bottom || area.right >= pair.width_px ||
       area.bottom >= pair.height_px)
-    return Error{
-        Errc::InvalidInput,
-        "the rectangle leaves the left rectified view, whose size is in brackets: give a smaller one"}
+    return invalid(
+               "the rectangle leaves the left rectified view, whose size is in brackets: give a smaller one")
         .at("grid-points (" + std::to_string(pair.width_px) + " x " + std::to_string(pair.height_px) + ")");
   auto chosen = lattice_keypoints(pair, step_px, area, context);
   const bool part = left_px + top_px + width_px + height_px > 0;
@@ -86,9 +84,7 @@ Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& 
   bool any = false;
   while (lines.next(line)) {
     any = true;
-    const auto refused = [&](Literal what) {
-      return Error{Errc::InvalidInput, what}.at(line_name(file.path, line.number));
-    };
+    const auto refused = [&](Literal what) { return invalid(what).at(line_name(file.path, line.number)); };
     if (line.count < 2) return refused("is not a line of numbers with commas or blanks between them");
     const double x = line.value[0], y = line.value[1];
     if (!(x >= 0 && y >= 0 && x <= pair.width_px - 1 && y <= pair.height_px - 1))
@@ -96,7 +92,7 @@ Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& 
     if (selectable(int(std::lround(x)), int(std::lround(y)), 0))
       keypoints.points.push_back({{float(x), float(y)}, 1});
   }
-  if (!any) return Error{Errc::InvalidInput, "holds no line of numbers"}.at(file.path);
+  if (!any) return invalid("holds no line of numbers").at(file.path);
   std::ranges::sort(keypoints.points, [](const Keypoint& a, const Keypoint& b) {
     return a.at_px.y != b.at_px.y ? a.at_px.y < b.at_px.y : a.at_px.x < b.at_px.x;
   });
@@ -125,9 +121,8 @@ std::optional<double> number_in(std::string_view text, double least, double most
 
 Result<std::vector<Level>> read_levels(const std::string& text) {
   const Error wrong =
-      Error{
-          Errc::InvalidInput,
-          "levels must be up to 16 QUALITY:DISTANCE_PX joined by '+', such as 0.1:4+0.02:7; quality above 0 to 1, distance 1 to 256"}
+      invalid(
+          "levels must be up to 16 QUALITY:DISTANCE_PX joined by '+', such as 0.1:4+0.02:7; quality above 0 to 1, distance 1 to 256")
           .at("good-features.levels = " + text);
   std::vector<Level> levels;
   for (const std::string_view part : split_names(text)) {
@@ -147,9 +142,8 @@ Result<std::vector<float>> read_thresholds(const std::string& text) {
   for (const std::string& part : split_names(text)) {
     const auto grey = number_in(part, 1, 254);
     if (!grey || thresholds.size() == kMostLevels)
-      return Error{
-          Errc::InvalidInput,
-          "binary_thresholds must be up to 16 grey levels of 1 to 254 joined by '+', such as 64+128, or none"}
+      return invalid(
+                 "binary_thresholds must be up to 16 grey levels of 1 to 254 joined by '+', such as 64+128, or none")
           .at("good-features.binary_thresholds = " + text);
     thresholds.push_back(float(*grey));
   }
@@ -203,17 +197,6 @@ struct Octave {
                                             Plane<float>(shape)};
   int size_px(std::size_t k) const { return 3 * (2 * step_px * (int(k) + 1) + 1); }
 };
-
-void respond(const FastHessian& hessian, const Selectable& selectable, ThreadPool& pool, Octave& octave) {
-  pool.for_each_band(octave.response[0].height, kOctaveBands, [&](int begin, int end, int) {
-    for (std::size_t k = 0; k < kSizes; ++k)
-      for (int j = begin; j < end; ++j)
-        for (int i = 0; i < octave.response[k].width; ++i)
-          if (const int x = i * octave.step_px, y = j * octave.step_px;
-              selectable(x, y, octave.size_px(k) / 2))
-            octave.response[k].row(j)[i] = std::max(0.0F, hessian.determinant(x, y, octave.size_px(k)));
-  });
-}
 
 // Of equal ones the first in size, row and column.
 bool is_peak(const Octave& octave, std::size_t k, int i, int j) {
@@ -275,7 +258,13 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
     Arena::Mark mark(context.scratch);
     Octave octave{step,
                   {&context.scratch, (pair.width_px + step - 1) / step, (pair.height_px + step - 1) / step}};
-    respond(hessian, selectable, context.pool, octave);
+    context.pool.for_each(octave.response[0].height, kOctaveBands, [&](int j) {
+      for (std::size_t k = 0; k < kSizes; ++k)
+        for (int i = 0; i < octave.response[k].width; ++i)
+          if (selectable(i * step, j * step, octave.size_px(k) / 2))
+            octave.response[k].row(j)[i] =
+                std::max(0.0F, hessian.determinant(i * step, j * step, octave.size_px(k)));
+    });
     if (context.stop()) return stopped();
     mark_peaks(octave, selectable, found);
   }

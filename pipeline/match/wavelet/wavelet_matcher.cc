@@ -17,16 +17,14 @@ constexpr int kBands = 16;
 void differ(const Plane<float>& from, int hole, ThreadPool& pool, Plane<Vec2f>& to) {
   const int w = from.width;
   const int h = from.height;
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* row = from.row(y);
-      const float* above = from.row(std::max(0, y - hole));
-      const float* below = from.row(std::min(h - 1, y + hole));
-      Vec2f* out = to.row(y);
-      for (int x = 0; x < w; ++x)
-        out[x] = {0.5F * (row[std::min(w - 1, x + hole)] - row[std::max(0, x - hole)]),
-                  0.5F * (below[x] - above[x])};
-    }
+  pool.for_each(h, kBands, [&](int y) {
+    const float* row = from.row(y);
+    const float* above = from.row(std::max(0, y - hole));
+    const float* below = from.row(std::min(h - 1, y + hole));
+    Vec2f* out = to.row(y);
+    for (int x = 0; x < w; ++x)
+      out[x] = {0.5F * (row[std::min(w - 1, x + hole)] - row[std::max(0, x - hole)]),
+                0.5F * (below[x] - above[x])};
   });
 }
 
@@ -34,25 +32,21 @@ void smooth(const Plane<float>& from, int hole, ThreadPool& pool, Plane<float>& 
   const int w = from.width;
   const int h = from.height;
   constexpr float kWeight[5] = {1.0F / 16, 4.0F / 16, 6.0F / 16, 4.0F / 16, 1.0F / 16};
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* row = from.row(y);
-      float* out = across.row(y);
-      for (int x = 0; x < w; ++x) {
-        float sum = 0;
-        for (int k = -2; k <= 2; ++k) sum += kWeight[k + 2] * row[std::clamp(x + k * hole, 0, w - 1)];
-        out[x] = sum;
-      }
+  pool.for_each(h, kBands, [&](int y) {
+    const float* row = from.row(y);
+    float* out = across.row(y);
+    for (int x = 0; x < w; ++x) {
+      float sum = 0;
+      for (int k = -2; k <= 2; ++k) sum += kWeight[k + 2] * row[std::clamp(x + k * hole, 0, w - 1)];
+      out[x] = sum;
     }
   });
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* out = to.row(y);
-      std::fill(out, out + w, 0.0F);
-      for (int k = -2; k <= 2; ++k) {
-        const float* row = across.row(std::clamp(y + k * hole, 0, h - 1));
-        for (int x = 0; x < w; ++x) out[x] += kWeight[k + 2] * row[x];
-      }
+  pool.for_each(h, kBands, [&](int y) {
+    float* out = to.row(y);
+    std::fill(out, out + w, 0.0F);
+    for (int k = -2; k <= 2; ++k) {
+      const float* row = across.row(std::clamp(y + k * hole, 0, h - 1));
+      for (int x = 0; x < w; ++x) out[x] += kWeight[k + 2] * row[x];
     }
   });
 }

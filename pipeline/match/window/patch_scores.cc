@@ -17,12 +17,9 @@ constexpr double kFitBiasPx = 0.03;     // rms of a parabola's pull to whole pix
 constexpr double kFaceBend = 1.0 / 40;  // 1/mm: between a cheek and the tip of a nose
 
 void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool& pool, Plane<float>& to) {
-  pool.for_each_band(to.height, kPlaneBands, [&](int begin, int end, int) {
-    const std::size_t first = std::size_t(begin) * std::size_t(to.width);
-    const std::size_t last = std::size_t(end) * std::size_t(to.width);
-    for (std::size_t k = first; k < last; ++k)
-      to.values[k] =
-          (channels == 1 ? view.grey[k] : float(view.rgb[3 * k + std::size_t(channel)])) - kMiddleGrey;
+  pool.for_each<std::size_t>(int(to.values.size()), kPlaneBands, [&](std::size_t k) {
+    to.values[k] =
+        (channels == 1 ? view.grey[k] : float(view.rgb[3 * k + std::size_t(channel)])) - kMiddleGrey;
   });
 }
 

@@ -171,17 +171,15 @@ Result<MatchSet> matches_in_field(const DisparityField& field, const RectifiedPa
   constexpr int kRadius = 4, kBandsOfPlaces = 32;
   constexpr float kFitSigmaPx = 1.0F / 6;  // of the fit between pixels, pixels of the field
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
-  context.pool.for_each_band(int(found.size()), kBandsOfPlaces, [&](int begin, int end, int) {
-    for (int k = begin; k < end && !context.stop(); ++k) {
-      const Vec2f at = keypoints.points[std::size_t(k)].at_px;
-      const Vec2f in_field{(at.x - field.corner_px.x) / field.scale,
-                           (at.y - field.corner_px.y) / field.scale};
-      const FieldReading reading = read_disparity(field.values, in_field);
-      if (!reading.known) continue;
-      const float d = field.scale * reading.disparity;
-      if (const float cost = window_cost(pair, at, d, kRadius); cost < 1)
-        found[std::size_t(k)] = {at, d, cost, field.scale * std::hypot(kFitSigmaPx, reading.scatter), 0};
-    }
+  context.pool.for_each(int(found.size()), kBandsOfPlaces, [&](int k) {
+    if (context.stop()) return;
+    const Vec2f at = keypoints.points[std::size_t(k)].at_px;
+    const Vec2f in_field{(at.x - field.corner_px.x) / field.scale, (at.y - field.corner_px.y) / field.scale};
+    const FieldReading reading = read_disparity(field.values, in_field);
+    if (!reading.known) return;
+    const float d = field.scale * reading.disparity;
+    if (const float cost = window_cost(pair, at, d, kRadius); cost < 1)
+      found[std::size_t(k)] = {at, d, cost, field.scale * std::hypot(kFitSigmaPx, reading.scatter), 0};
   });
   if (context.stop()) return stopped();
   return matches_of(found, keypoints, context);

@@ -83,19 +83,7 @@ class Search {
  public:
   Search(const ChannelPlanes& planes, WindowScore score, const LatticeRows& rows, StageContext& context,
          Plane<int>& best)
-      : planes_(planes),
-        score_(score),
-        rows_(rows),
-        side_(2 * planes.radius + 1),
-        width_(best.width),
-        bands_((rows.count + kRowsPerBand - 1) / kRowsPerBand),
-        best_(best),
-        least_(&context.scratch, width_, rows.count, start()),
-        left_mean_(&context.scratch),
-        right_mean_(&context.scratch),
-        right_scale_(&context.scratch, width_, rows.count),
-        work_(&context.scratch, 4 * width_, bands_),
-        moments_(&context.scratch, 3 * width_, bands_) {
+      : planes_(planes), score_(score), rows_(rows), context_(context), best_(best) {
     if (score != WindowScore::ZeroMeanCorrelation) return;
     for (auto* means : {&left_mean_, &right_mean_}) {
       means->reserve(planes.left.size());
@@ -104,14 +92,14 @@ class Search {
     }
   }
 
-  void run(const CandidateRange& range, StageContext& context) {
-    context.pool.for_each_band(rows_.count, bands_, [&](int begin, int end, int band) {
+  void run(const CandidateRange& range) {
+    context_.pool.for_each_band(rows_.count, bands_, [&](int begin, int end, int band) {
       for (int row = begin; row < end; ++row) {
-        if (context.stop()) return;
+        if (context_.stop()) return;
         learn_row(row, moments_.row(band));
       }
       for (int d = range.first; d <= range.last; ++d) {
-        if (context.stop()) return;
+        if (context_.stop()) return;
         try_disparity(d, begin, end, work_.row(band));
       }
     });
@@ -212,15 +200,18 @@ class Search {
   const ChannelPlanes& planes_;
   WindowScore score_;
   LatticeRows rows_;
-  int side_, width_, bands_;
+  StageContext& context_;
   Plane<int>& best_;
-  Plane<float> least_;
+  int side_ = 2 * planes_.radius + 1, width_ = best_.width;
+  int bands_ = (rows_.count + kRowsPerBand - 1) / kRowsPerBand;
+  Plane<float> least_{&context_.scratch, width_, rows_.count, start()};
   // What is known of every window of a lattice row before any disparity is tried.
-  std::pmr::vector<Plane<float>> left_mean_,
-      right_mean_;            // the left times the window's pixels; a channel each
-  Plane<float> right_scale_;  // 1 / root of the variation; of squared differences kUnfit or 0
-  Plane<float> work_;
-  Plane<double> moments_;
+  // The left times the window's pixels; a channel each.
+  std::pmr::vector<Plane<float>> left_mean_{&context_.scratch}, right_mean_{&context_.scratch};
+  // 1 / root of the variation; of squared differences kUnfit or 0.
+  Plane<float> right_scale_{&context_.scratch, width_, rows_.count};
+  Plane<float> work_{&context_.scratch, 4 * width_, bands_};
+  Plane<double> moments_{&context_.scratch, 3 * width_, bands_};
 };
 
 constexpr int kBands = 32;
@@ -273,34 +264,24 @@ class WindowMatching {
  public:
   WindowMatching(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule,
                  StageContext& context)
-      : keypoints_(keypoints),
-        rule_(rule),
-        bias_px_(method_bias_px(pair, rule.window_px)),
-        range_(disparity_range(pair)),
-        rows_(rows_of(keypoints, pair.height_px)),
-        planes_(make_channel_planes(pair, rule.channels, rule.window_px / 2, context)),
-        best_(&context.scratch, pair.width_px, rows_ ? rows_->count : 0, kNoCandidate),
-        found_(keypoints.points.size(), Match{}, &context.scratch),
-        scores_(&context.scratch) {
+      : pair_(pair), keypoints_(keypoints), rule_(rule), context_(context) {
     scores_.reserve(kBands);
     for (int band = 0; band < kBands; ++band)
       scores_.emplace_back(planes_, rule.score, rows_ ? 3 : range_.count(), &context.scratch);
   }
 
-  void run(StageContext& context) {
+  void run() {
     if (rows_) {
-      Arena::Mark mark(context.scratch);
-      Search(planes_, rule_.score, *rows_, context, best_).run(range_, context);
+      Arena::Mark mark(context_.scratch);
+      Search(planes_, rule_.score, *rows_, context_, best_).run(range_);
     }
-    context.progress.done.store(0.8F, std::memory_order_relaxed);
+    context_.progress.done.store(0.8F, std::memory_order_relaxed);
     const int count = int(keypoints_.points.size());
-    context.pool.for_each_band(count, kBands, [&](int begin, int end, int band) {
-      for (int k = begin; k < end; ++k) {
-        if (k % 64 == 0 && context.stop()) return;
-        PatchScores& scores = scores_[std::size_t(band)];
-        const Vec2f at = keypoints_.points[std::size_t(k)].at_px;
-        found_[std::size_t(k)] = rows_ ? match_at_node(at, scores) : match_anywhere(at, scores);
-      }
+    context_.pool.for_each<std::size_t>(count, kBands, [&](std::size_t k, int band) {
+      if (context_.stop()) return;
+      PatchScores& scores = scores_[std::size_t(band)];
+      const Vec2f at = keypoints_.points[k].at_px;
+      found_[k] = rows_ ? match_at_node(at, scores) : match_anywhere(at, scores);
     });
   }
 
@@ -329,17 +310,19 @@ class WindowMatching {
                        bias_px_, rule_);
   }
 
+  const RectifiedPair& pair_;
   const Keypoints& keypoints_;
   const WindowRule& rule_;
-  double bias_px_;
-  CandidateRange range_;
-  std::optional<LatticeRows> rows_;
-  ChannelPlanes planes_;
+  StageContext& context_;
+  double bias_px_ = method_bias_px(pair_, rule_.window_px);
+  CandidateRange range_ = disparity_range(pair_);
+  std::optional<LatticeRows> rows_ = rows_of(keypoints_, pair_.height_px);
+  ChannelPlanes planes_ = make_channel_planes(pair_, rule_.channels, rule_.window_px / 2, context_);
   // best_.row(j)[x]: of pixel (x, rows_->first_px + j * rows_->step_px), kNoCandidate where no window fits
   // (or no correlation is positive).
-  Plane<int> best_;
-  std::pmr::vector<Match> found_;
-  std::pmr::vector<PatchScores> scores_;
+  Plane<int> best_{&context_.scratch, pair_.width_px, rows_ ? rows_->count : 0, kNoCandidate};
+  std::pmr::vector<Match> found_{keypoints_.points.size(), Match{}, &context_.scratch};
+  std::pmr::vector<PatchScores> scores_{&context_.scratch};
 };
 
 // Keypoints whose window leaves the picture, whose best candidate is the volume's end, or that the rule
@@ -348,7 +331,7 @@ Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypo
                                StageContext& context) {
   RELIEVO_TRY(check_pixels(pair));
   WindowMatching matching(pair, keypoints, rule, context);
-  matching.run(context);
+  matching.run();
   if (context.stop()) return stopped();
   return matches_of(matching.found(), keypoints, context);
 }

@@ -10,9 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/completion/head_sewing.h"
@@ -72,18 +70,6 @@ constexpr double kReturnMm = 40;  // to zero
 constexpr double kNearMm = 1;     // over which the plate smooths what is known
 constexpr double kBentMm = 50;    // from the known part the shape bends as its own does, not on the way there
 
-// Sharing one sphere, all nodes count alike: h h / 4 times the Laplacian, which in a lattice of equal
-// triangles with sides of h is what a node's neighbours' mean is off.
-MeshLaplacian bends_of(const Globe& globe) {
-  std::vector<Eigen::Vector3d> at;
-  for (const Vec3d& d : globe.direction) at.emplace_back(d.x, d.y, d.z);
-  MeshLaplacian laplacian = laplacian_of(at, globe.triangles);
-  const double share = 4 * std::numbers::pi / double(at.size()) / (2 * std::sqrt(3.0));
-  for (auto& its : laplacian.neighbours)
-    for (auto& n : its) n.weight *= share;
-  return laplacian;
-}
-
 // How many steps a node lies from those whose value is known, or from those whose is not; at most `most`.
 std::vector<int> steps_from(bool known, const MeshLaplacian& bends, std::span<const double> value, int most) {
   std::vector<int> steps(value.size(), most);
@@ -107,7 +93,13 @@ double weight_of(double step_mm, double length_mm) { return std::pow(step_mm / (
 // `shape`, `value`: one a node; values that are NaN are not known and are set. `step_mm`: from node to node.
 void continue_over_globe(const Globe& globe, double step_mm, std::span<const double> shape,
                          std::span<double> value) {
-  const MeshLaplacian laplacian = bends_of(globe);
+  // Sharing one sphere, all nodes count alike: h h / 4 times the Laplacian, which in a lattice of equal
+  // triangles with sides of h is what a node's neighbours' mean is off.
+  std::vector<Eigen::Vector3d> at;
+  for (const Vec3d& d : globe.direction) at.emplace_back(d.x, d.y, d.z);
+  MeshLaplacian laplacian = laplacian_of(at, globe.triangles);
+  for (auto& its : laplacian.neighbours)
+    for (auto& n : its) n.weight *= 4 * std::numbers::pi / double(at.size()) / (2 * std::sqrt(3.0));
   const int band = std::max(2, int(std::lround(kBandMm / step_mm)));
   const std::vector<int> depth = steps_from(false, laplacian, value, band + 1);
   const int bent = std::max(1, int(kBentMm / step_mm));
@@ -171,7 +163,7 @@ std::vector<char> apart(const Globe& globe, std::span<const double> off) {
 
 Result<void> SymmetricCompletion::check() const {
   if (longest_edge_mm < 2 * cell_mm)
-    return Error{Errc::InvalidInput, "longest_edge_mm must be at least two cells"}.at("symmetric");
+    return invalid("longest_edge_mm must be at least two cells").at("symmetric");
   return {};
 }
 

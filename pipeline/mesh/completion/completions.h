@@ -7,7 +7,6 @@
 // more for every millimetre from the seam. Errors: those of Completion. Thread: any.
 #pragma once
 
-#include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>

@@ -186,12 +186,6 @@ HeadPlace head_place(double arc_mm, double y_mm) {
   return place;
 }
 
-HeadPlace globe_place(std::size_t node) {
-  HeadPlace place;
-  add_to(place, generic_head().globe, node, 1);
-  return place;
-}
-
 constexpr double kApartMm = 5;      // between the places that the fit looks at
 constexpr double kTogetherMm = 12;  // over which the misfit hangs together, and tells as much as one place
 constexpr int kRounds = 6;
@@ -231,16 +225,6 @@ Fit fit_modes(const UnrolledHead& head, double misfit_mm) {
 constexpr double kBelowLips = -35;  // y: a jaw is looked for from here down
 constexpr float kSteepest = 1.0F;
 
-// What lies below the jaw, seen from the axis, falls away too steeply for radii.
-void end_at_jaw(FaceRelief& radius, int c, float cell_mm) {
-  bool ended = false;
-  for (int r = radius.rows() - 2; r >= 0; --r) {
-    if (radius.y_mm(r) > kBelowLips) continue;
-    ended = ended || radius.z(c, r + 1) - radius.z(c, r) > kSteepest * cell_mm;
-    if (ended) radius.z(c, r) = std::numeric_limits<float>::quiet_NaN();
-  }
-}
-
 }  // namespace
 
 void fit_generic_face(UnrolledHead& head, double misfit_mm) {
@@ -251,7 +235,15 @@ void fit_generic_face(UnrolledHead& head, double misfit_mm) {
       const HeadPlace place = head_place(radius.x_mm(c), radius.y_mm(r));
       radius.z(c, r) = float(place.mean_mm + place.mode_mm.dot(fit.weight));
     }
-  for (int c = 0; c < radius.columns(); ++c) end_at_jaw(radius, c, float(head.cell_mm));
+  // What lies below the jaw, seen from the axis, falls away too steeply for radii.
+  for (int c = 0; c < radius.columns(); ++c) {
+    bool ended = false;
+    for (int r = radius.rows() - 2; r >= 0; --r) {
+      if (radius.y_mm(r) > kBelowLips) continue;
+      ended = ended || radius.z(c, r + 1) - radius.z(c, r) > kSteepest * float(head.cell_mm);
+      if (ended) radius.z(c, r) = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
 }
 
 std::array<std::pmr::vector<double>, 2> fit_generic_globe(const UnrolledHead& head, double misfit_mm,
@@ -259,7 +251,8 @@ std::array<std::pmr::vector<double>, 2> fit_generic_globe(const UnrolledHead& he
   const Fit fit = fit_modes(head, misfit_mm);
   std::pmr::vector<double> radius(memory), sigma(memory);
   for (std::size_t node = 0; node < kGlobeNodes; ++node) {
-    const HeadPlace place = globe_place(node);
+    HeadPlace place;
+    add_to(place, generic_head().globe, node, 1);
     const Modes& modes = place.mode_mm;
     radius.push_back(place.mean_mm + modes.dot(fit.weight));
     sigma.push_back(

@@ -3,9 +3,7 @@
 #include "pipeline/mesh/completion/head_sewing.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
-#include <vector>
 
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/mesh/surface_cleaner.h"

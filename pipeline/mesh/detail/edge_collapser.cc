@@ -51,13 +51,7 @@ class Collapser {
  public:
   Collapser(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles,
             std::span<const std::uint8_t> fixed, std::pmr::memory_resource* memory)
-      : vertices_(vertices),
-        triangles_(triangles),
-        fixed_(fixed),
-        index_(vertices.size(), triangles, memory),
-        quadrics_(vertices.size(), Quadric{}, memory),
-        border_(vertices.size(), 0, memory),
-        candidates_(memory) {
+      : vertices_(vertices), triangles_(triangles), fixed_(fixed), memory_(memory) {
     candidates_.reserve(3 * triangles.size());
     for (const Vec3f& v : vertices) {
       middle_.x += double(v.x) / double(vertices.size());
@@ -70,7 +64,6 @@ class Collapser {
     index_.build(fixed_);
     add_quadrics();
     while (triangles_.size() > most) {
-      mark_border();
       list_candidates();
       if (run_pass(triangles_.size() - most) == 0) return;
       index_.build(fixed_);
@@ -105,13 +98,6 @@ class Collapser {
       quadrics_[v].add_plane(n, -dot(n, at(from)), kBorderWeight * dot(along, along));
   }
 
-  void mark_border() {
-    std::ranges::fill(border_, std::uint8_t{0});
-    for (const Triangle& t : triangles_)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (index_.across(t[k], t[(k + 1) % 3]) == kGoneVertex) border_[t[k]] = border_[t[(k + 1) % 3]] = 1;
-  }
-
   float cost(std::uint32_t gone, std::uint32_t kept) const {
     Quadric sum = quadrics_[gone];
     sum.add(quadrics_[kept]);
@@ -121,6 +107,10 @@ class Collapser {
 
   // Each edge once, in its cheaper direction.
   void list_candidates() {
+    std::ranges::fill(border_, std::uint8_t{0});
+    for (const Triangle& t : triangles_)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (index_.across(t[k], t[(k + 1) % 3]) == kGoneVertex) border_[t[k]] = border_[t[(k + 1) % 3]] = 1;
     candidates_.clear();
     for (const Triangle& t : triangles_)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -184,10 +174,11 @@ class Collapser {
   std::span<const Vec3f> vertices_;
   std::pmr::vector<Triangle>& triangles_;
   std::span<const std::uint8_t> fixed_;
-  CornerIndex index_;
-  std::pmr::vector<Quadric> quadrics_;
-  std::pmr::vector<std::uint8_t> border_;
-  std::pmr::vector<Candidate> candidates_;
+  std::pmr::memory_resource* memory_;
+  CornerIndex index_{vertices_.size(), triangles_, memory_};
+  std::pmr::vector<Quadric> quadrics_{vertices_.size(), Quadric{}, memory_};
+  std::pmr::vector<std::uint8_t> border_{vertices_.size(), 0, memory_};
+  std::pmr::vector<Candidate> candidates_{memory_};
   Vec3d middle_;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -26,15 +25,6 @@ float squared_to_segment(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
 constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
 constexpr int kMostTries = 8;
 constexpr double kMoreEachTry = 2;
-
-// What has several entries lies on a seam and stays, with all that it has.
-std::pmr::vector<std::uint8_t> on_seam(const SeamSplit& split, std::size_t vertices,
-                                       std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint8_t> shares(vertices, 0, memory), seam(memory);
-  for (const auto& entry : split.entries) shares[entry.vertex] = shares[entry.vertex] == 0 ? 1 : 2;
-  for (const auto& entry : split.entries) seam.push_back(shares[entry.vertex] > 1 ? 1 : 0);
-  return seam;
-}
 
 // Leaves a model these triangles alone, and the vertices they use.
 void keep_triangles(FaceModel& model, const SeamSplit& split, const std::pmr::vector<Triangle>& triangles,
@@ -122,19 +112,22 @@ SurfaceDistance distance_to_surface(std::span<const Vec3f> points, std::span<con
 
 Result<void> DetailOptions::check() const {
   if (triangles < 100 || triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "a level of detail has 100 to 10000000 triangles"}.at("lod");
-  if (!(max_error_mm > 0)) return Error{Errc::InvalidInput, "the largest error must be above 0 mm"}.at("lod");
+    return invalid("a level of detail has 100 to 10000000 triangles").at("lod");
+  if (!(max_error_mm > 0)) return invalid("the largest error must be above 0 mm").at("lod");
   return {};
 }
 
 Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& options,
                              std::pmr::memory_resource* memory) {
   RELIEVO_TRY(options.check());
-  if (!hangs_together(model)) return Error{Errc::InvalidInput, "the model does not hang together"}.at("lod");
+  if (!hangs_together(model)) return invalid("the model does not hang together").at("lod");
   LighterModel lighter(memory);
   std::size_t wanted = std::size_t(options.triangles);
   const SeamSplit split = split_at_seams(model.mesh, model.texture.uv, memory);
-  const std::pmr::vector<std::uint8_t> seam = on_seam(split, model.mesh.vertices_mm.size(), memory);
+  // What has several entries lies on a seam and stays, with all that it has.
+  std::pmr::vector<std::uint8_t> shares(model.mesh.vertices_mm.size(), 0, memory), seam(memory);
+  for (const auto& entry : split.entries) shares[entry.vertex] = shares[entry.vertex] == 0 ? 1 : 2;
+  for (const auto& entry : split.entries) seam.push_back(shares[entry.vertex] > 1 ? 1 : 0);
   std::pmr::vector<Vec3f> at_mm(memory);
   for (const auto& entry : split.entries) at_mm.push_back(model.mesh.vertices_mm[entry.vertex]);
   for (int turn = 0; turn < kMostTries && wanted < model.mesh.triangles.size(); ++turn) {

@@ -9,8 +9,6 @@
 // Frame and units: the model's. Memory: `memory`. Thread: any.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory_resource>
 #include <span>
 

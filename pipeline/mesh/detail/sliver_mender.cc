@@ -44,7 +44,15 @@ bool CornerIndex::may_collapse(const Ring& of_gone, const Ring& of_kept, std::ui
   if (of_gone.empty() || of_kept.empty()) return false;
   const bool border = border_edge(gone, kept);
   if (on_border(gone) && !(border && on_border(kept))) return false;
-  return common_neighbours(of_kept, of_gone, kept, gone) == (border ? 1U : 2U);
+  // The neighbours of both.
+  std::array<std::uint32_t, 2 * kMostAround> near{};
+  auto end = near.begin();
+  for (const std::uint32_t t : of_kept)
+    for (const std::uint32_t v : triangles_[t])
+      if (v != kept && v != gone && std::find(near.begin(), end, v) == end) *end++ = v;
+  return std::count_if(near.begin(), end, [&](std::uint32_t n) {
+           return std::ranges::any_of(of_gone, [&](std::uint32_t t) { return holds(triangles_[t], n); });
+         }) == (border ? 1 : 2);
 }
 
 void CornerIndex::collapse(const Ring& of_gone, std::uint32_t gone, std::uint32_t kept) {
@@ -54,18 +62,6 @@ void CornerIndex::collapse(const Ring& of_gone, std::uint32_t gone, std::uint32_
     if (holds(moved, kept)) moved.fill(kGoneVertex);
     else std::ranges::replace(moved, gone, kept);
   }
-}
-
-std::size_t CornerIndex::common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a,
-                                           std::uint32_t b) const {
-  std::array<std::uint32_t, 2 * kMostAround> near{};
-  auto end = near.begin();
-  for (const std::uint32_t t : of_a)
-    for (const std::uint32_t v : triangles_[t])
-      if (v != a && v != b && std::find(near.begin(), end, v) == end) *end++ = v;
-  return std::size_t(std::count_if(near.begin(), end, [&](std::uint32_t n) {
-    return std::ranges::any_of(of_b, [&](std::uint32_t t) { return holds(triangles_[t], n); });
-  }));
 }
 
 namespace {
@@ -78,12 +74,7 @@ class Mender {
  public:
   Mender(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, float max_slope,
          std::pmr::memory_resource* memory)
-      : vertices_(vertices),
-        triangles_(triangles),
-        cosine_of_bar_(std::cos(kSmallestAngleDeg * std::numbers::pi_v<float> / 180)),
-        min_cosine_(cosine_of_slope(max_slope)),
-        index_(vertices.size(), triangles, memory),
-        slivers_(memory) {
+      : vertices_(vertices), triangles_(triangles), max_slope_(max_slope), memory_(memory) {
     slivers_.reserve(triangles.size());
     find_slivers();
   }
@@ -221,9 +212,11 @@ class Mender {
 
   std::span<const Vec3f> vertices_;
   std::pmr::vector<Triangle>& triangles_;
-  float cosine_of_bar_, min_cosine_;
-  CornerIndex index_;
-  std::pmr::vector<std::uint32_t> slivers_;
+  float max_slope_, min_cosine_ = cosine_of_slope(max_slope_);
+  float cosine_of_bar_ = std::cos(kSmallestAngleDeg * std::numbers::pi_v<float> / 180);
+  std::pmr::memory_resource* memory_;
+  CornerIndex index_{vertices_.size(), triangles_, memory_};
+  std::pmr::vector<std::uint32_t> slivers_{memory_};
 };
 
 }  // namespace

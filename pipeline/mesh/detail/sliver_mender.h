@@ -55,8 +55,6 @@ class CornerIndex {
   void collapse(const Ring& of_gone, std::uint32_t gone, std::uint32_t kept);
 
  private:
-  std::size_t common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a, std::uint32_t b) const;
-
   std::pmr::vector<Triangle>& triangles_;
   Groups around_;  // triangles around each vertex
   std::pmr::vector<std::uint8_t> touched_;

@@ -97,18 +97,6 @@ Settled settle(const std::array<Eye, 2>& eyes, const Eigen::Vector3d& off) {
   return {at, cost};
 }
 
-// Both balls' middles, the right eye's before the left one's; an eye that is not found follows the other.
-std::array<Eigen::Vector3d, 2> fit_balls(const std::array<Eye, 2>& eyes, ThreadPool& pool) {
-  constexpr int kStarts = 18;
-  std::array<Settled, kStarts> ends;
-  pool.for_each_band(kStarts, kStarts, [&](int, int, int k) {
-    ends[std::size_t(k)] =
-        settle(eyes, {3.0 * (k / 3 % 3) - 3, 2.0 * (k % 3) - 2, -kRadiusMm - (k < kStarts / 2 ? -1.0 : 1.0)});
-  });
-  return std::ranges::min_element(ends, [](const Settled& l, const Settled& r) { return l.cost < r.cost; })
-      ->middles;
-}
-
 void collect(Eye& eye, const FaceMesh& mesh, const std::pmr::vector<Vec3d>& in_head) {
   std::pmr::vector<std::uint32_t> measured(eye.within.get_allocator());
   for (std::uint32_t v = 0; v < in_head.size(); ++v) {
@@ -166,19 +154,6 @@ void span(const std::pmr::vector<Edge>& edges, std::pmr::vector<Vec3d>& in_head)
 // The larger one, without an edge where both are equal.
 double soft_larger(double a, double b) { return (a + b + std::hypot(a - b, kSoftMm)) / 2; }
 
-void turn_normals(FaceMesh& mesh, const std::pmr::vector<std::uint8_t>& moved) {
-  for (std::uint32_t v = 0; v < moved.size(); ++v)
-    if (moved[v] != 0) mesh.normals[v] = {};
-  for (const auto& t : mesh.triangles) {
-    if ((moved[t[0]] | moved[t[1]] | moved[t[2]]) == 0) continue;
-    const Vec3f across = area_normal(mesh.vertices_mm, t);
-    for (const std::uint32_t v : t)
-      if (moved[v] != 0) mesh.normals[v] = plus(mesh.normals[v], across);
-  }
-  for (std::uint32_t v = 0; v < moved.size(); ++v)
-    if (moved[v] != 0) mesh.normals[v] = unit(mesh.normals[v]);
-}
-
 }  // namespace
 
 void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const RectifiedPair& pair,
@@ -195,14 +170,21 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
     eyes[i].lids = lids[i];
     if (lids[i]) collect(eyes[i], mesh, in_head);
   }
-  const auto balls = fit_balls(eyes, context.pool);
+  // Both balls' middles, the right eye's before the left one's; an eye that is not found follows the other.
+  constexpr int kStarts = 18;
+  std::array<Settled, kStarts> ends;
+  context.pool.for_each(kStarts, kStarts, [&](int k) {
+    ends[std::size_t(k)] =
+        settle(eyes, {3.0 * (k / 3 % 3) - 3, 2.0 * (k % 3) - 2, -kRadiusMm - (k < kStarts / 2 ? -1.0 : 1.0)});
+  });
+  const auto balls = std::ranges::min_element(ends, {}, &Settled::cost)->middles;
   std::pmr::vector<std::uint8_t> moved(in_head.size(), 0, &scratch);  // the eye, from 1
   for (std::uint8_t i = 0; i < 2; ++i)
     if (!eyes[i].seen.empty())
       for (const std::uint32_t v : eyes[i].within) moved[v] = i + 1;
   const std::array edges{edges_of(1, mesh, moved, in_head, scratch),
                          edges_of(2, mesh, moved, in_head, scratch)};
-  context.pool.for_each_band(2, 2, [&](int, int, int i) { span(edges[std::size_t(i)], in_head); });
+  context.pool.for_each(2, 2, [&](int i) { span(edges[std::size_t(i)], in_head); });
   for (std::size_t i = 0; i < 2; ++i)
     for (const std::uint32_t v : eyes[i].within) {
       if (moved[v] == 0) continue;
@@ -219,8 +201,16 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
     mesh.vertices_mm[v] = narrow(apply(camera_from_head, in_head[v]));
     mesh.measured[v] = 0;
     mesh.sigma_mm[v] = std::max(mesh.sigma_mm[v], kSigmaMm);
+    mesh.normals[v] = {};
   }
-  turn_normals(mesh, moved);
+  for (const auto& t : mesh.triangles) {
+    if ((moved[t[0]] | moved[t[1]] | moved[t[2]]) == 0) continue;
+    const Vec3f across = area_normal(mesh.vertices_mm, t);
+    for (const std::uint32_t v : t)
+      if (moved[v] != 0) mesh.normals[v] = plus(mesh.normals[v], across);
+  }
+  for (std::uint32_t v = 0; v < moved.size(); ++v)
+    if (moved[v] != 0) mesh.normals[v] = unit(mesh.normals[v]);
 }
 
 }  // namespace relievo::pipeline

@@ -10,7 +10,6 @@
 #include <Eigen/Cholesky>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/mesh/landmarks/face_relief.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -222,14 +221,6 @@ std::optional<ProfilePoint> find_chin(Profile profile, const ProfilePoint& tip) 
   return lower ? lower : chin;
 }
 
-std::optional<ProfilePoint> touched_from(Profile profile, const ProfilePoint& tip) {
-  const Profile range = part(profile, tip.y_mm + kChinTo, tip.y_mm + kRecedingFrom);
-  const auto touched = std::ranges::min_element(
-      range, {}, [&](const ProfilePoint& p) { return (tip.z_mm - p.z_mm) / (tip.y_mm - p.y_mm); });
-  if (range.size() < 6 || touched == range.begin() || touched + 1 == range.end()) return std::nullopt;
-  return *touched;
-}
-
 }  // namespace
 
 FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context) {
@@ -265,8 +256,12 @@ ProfileMarks find_profile_marks(Profile profile) {
   marks.nasion = find_nasion(profile, *marks.tip);
   marks.chin = find_chin(profile, *marks.tip);
   if (!marks.chin) {
-    marks.chin = touched_from(profile, *marks.tip);
-    marks.chin_recedes = marks.chin.has_value();
+    const ProfilePoint& tip = *marks.tip;
+    const Profile range = part(profile, tip.y_mm + kChinTo, tip.y_mm + kRecedingFrom);
+    const auto touched = std::ranges::min_element(
+        range, {}, [&](const ProfilePoint& p) { return (tip.z_mm - p.z_mm) / (tip.y_mm - p.y_mm); });
+    marks.chin_recedes = range.size() >= 6 && touched != range.begin() && touched + 1 != range.end();
+    if (marks.chin_recedes) marks.chin = *touched;
   }
   const Deepest base = deepest_below_hull(profile, marks.tip->y_mm - kLipFoot, marks.tip->y_mm,
                                           marks.tip->y_mm - kLipFoot, marks.tip->y_mm - 3);

@@ -73,9 +73,8 @@ void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from
                           FaceRelief& shown, StageContext& context) {
   const Arena::Mark mark(context.scratch);
   std::pmr::vector<Vec3f> corners(mesh.vertices_mm.size(), Vec3f{}, &context.scratch);
-  context.pool.for_each_band(int(corners.size()), kParts, [&](int from, int to, int) {
-    for (auto v = std::size_t(from); v < std::size_t(to); ++v)
-      corners[v] = measured.in_cells(mesh.vertices_mm[v], frame_from_mesh);
+  context.pool.for_each<std::size_t>(int(corners.size()), kParts, [&](std::size_t v) {
+    corners[v] = measured.in_cells(mesh.vertices_mm[v], frame_from_mesh);
   });
   struct Part {
     FaceRelief measured, completed;
@@ -84,13 +83,11 @@ void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from
   parts.reserve(kParts);
   for (int k = 0; k < kParts; ++k)
     parts.push_back({FaceRelief(shown.box_, &context.scratch), FaceRelief(shown.box_, &context.scratch)});
-  context.pool.for_each_band(int(mesh.triangles.size()), kParts, [&](int from, int to, int k) {
+  context.pool.for_each<std::size_t>(int(mesh.triangles.size()), kParts, [&](std::size_t i, int k) {
+    const auto& t = mesh.triangles[i];
     Part& part = parts[std::size_t(k)];
-    for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
-      const auto& t = mesh.triangles[i];
-      FaceRelief& relief = all_three(mesh.measured, t) ? part.measured : part.completed;
-      relief.add_triangle(corners[t[0]], corners[t[1]], corners[t[2]]);
-    }
+    FaceRelief& relief = all_three(mesh.measured, t) ? part.measured : part.completed;
+    relief.add_triangle(corners[t[0]], corners[t[1]], corners[t[2]]);
   });
   for (const Part& part : parts) {
     measured.add_foremost(part.measured);

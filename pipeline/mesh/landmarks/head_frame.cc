@@ -84,9 +84,8 @@ void keep(NoseCandidates& found, const NoseCandidate& candidate) {
 NoseCandidates find_nose_candidates(std::span<const SurfacePoint> points, StageContext& context) {
   const std::size_t every = std::max<std::size_t>(1, points.size() / 1000);
   std::pmr::vector<double> protrusions((points.size() + every - 1) / every, -1.0, &context.scratch);
-  context.pool.for_each_band(int(protrusions.size()), 16, [&](int from, int to, int) {
-    for (auto i = std::size_t(from); i < std::size_t(to); ++i)
-      protrusions[i] = protrusion(points, points[i * every].at_mm);
+  context.pool.for_each<std::size_t>(int(protrusions.size()), 16, [&](std::size_t i) {
+    protrusions[i] = protrusion(points, points[i * every].at_mm);
   });
   NoseCandidates found(&context.scratch);
   found.reserve(kMostNoses + 1);

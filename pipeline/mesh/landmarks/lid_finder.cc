@@ -209,7 +209,7 @@ Lids search(const Window& w, int highest_mm, ThreadPool& pool) {
       }
   };
   std::array<Best, 7> found;  // one for each place of the inner corner
-  pool.for_each_band(7, 7, [&](int, int, int k) {
+  pool.for_each(7, 7, [&](int k) {
     const int from = 2 * k - 19;
     for (int width = 22; width <= std::min(34, 20 - from); width += 2)
       for (int up = kLowestMm; up <= highest_mm; ++up)

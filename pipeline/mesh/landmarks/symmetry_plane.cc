@@ -154,12 +154,10 @@ std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> 
   constexpr double kDeg = std::numbers::pi / 180;
   std::array<Start, kYaws * kRolls * kOffsets> starts;
   const std::size_t every = std::max<std::size_t>(1, points.size() / 500);
-  pool.for_each_band(int(starts.size()), kYaws, [&](int from, int to, int) {
-    for (int k = from; k < to; ++k) {
-      const int yaw = k / (kRolls * kOffsets), roll = k / kOffsets % kRolls, offset = k % kOffsets;
-      const Pose pose{(10 * yaw - 40) * kDeg, (8 * roll - 16) * kDeg, 4.0 * offset - 8};
-      starts[std::size_t(k)] = {cost(map, points, every, pose), pose};
-    }
+  pool.for_each(int(starts.size()), kYaws, [&](int k) {
+    const int yaw = k / (kRolls * kOffsets), roll = k / kOffsets % kRolls, offset = k % kOffsets;
+    const Pose pose{(10 * yaw - 40) * kDeg, (8 * roll - 16) * kDeg, 4.0 * offset - 8};
+    starts[std::size_t(k)] = {cost(map, points, every, pose), pose};
   });
   std::array<Start, 3> best;
   std::partial_sort_copy(starts.begin(), starts.end(), best.begin(), best.end(),
@@ -173,7 +171,7 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   const HeightMap map(points, &context.scratch);
   std::array<Start, 3> ends = raster(map, points, context.pool);
   if (context.stop()) return stopped();
-  context.pool.for_each_band(int(ends.size()), int(ends.size()), [&](int, int, int k) {
+  context.pool.for_each(int(ends.size()), int(ends.size()), [&](int k) {
     Start& end = ends[std::size_t(k)];
     const Pose pose = descend(map, points, end.pose);
     // On a rough surface the descent may leave for where hardly anything meets: a

@@ -66,13 +66,6 @@ class Plate {
         known_(known),
         like_(like),
         cancelled_(cancelled),
-        place_(value.size(), kNone, memory),
-        placed_(known.begin(), known.end(), memory),
-        differences_(memory),
-        step_(free.size() + 1, 0.0, memory),
-        slope_(free.size() + 1, 0.0, memory),
-        residual_(memory),
-        change_(memory),
         memory_(memory) {
     const double across = double(grid.height_to_width);  // cells may be oblong
     constexpr double kTwice = 1.41421356;
@@ -99,7 +92,10 @@ class Plate {
       value_[k] = sum / count;
     };
     spread_inwards(grid_.columns, grid_.rows, free_, placed_, place, memory_);
-    list_differences();
+    std::size_t count = 0;
+    for_each_difference([&](const Difference&) { ++count; });
+    differences_.reserve(count);
+    for_each_difference([this](const Difference& difference) { differences_.push_back(difference); });
     solve(coarser ? kTurnsBelow : kMostTurns);
   }
 
@@ -147,13 +143,6 @@ class Plate {
       value_[k] = sum / count;
       placed_[k] = 1;
     }
-  }
-
-  void list_differences() {
-    std::size_t count = 0;
-    for_each_difference([&](const Difference&) { ++count; });
-    differences_.reserve(count);
-    for_each_difference([this](const Difference& difference) { differences_.push_back(difference); });
   }
 
   template <typename Visit>
@@ -260,14 +249,15 @@ class Plate {
   std::span<const std::uint8_t> known_;
   std::span<const double> like_;
   const std::atomic<bool>* cancelled_;
-  std::pmr::vector<std::int32_t> place_;   // of a place among the free ones
-  std::pmr::vector<std::uint8_t> placed_;  // 1 where it has a value
+  std::pmr::memory_resource* memory_;
+  std::pmr::vector<std::int32_t> place_{value_.size(), kNone, memory_};  // of a place among the free ones
+  std::pmr::vector<std::uint8_t> placed_{known_.begin(), known_.end(), memory_};  // 1 where it has a value
   std::array<std::array<double, 4>, kDifferenceKinds> weights_{};
   std::array<double, kDifferenceKinds> wanted_{};  // where no other surface says so
-  std::pmr::vector<Difference> differences_;
-  std::pmr::vector<double> step_, slope_;       // one a free place, and 0 for all that are known
-  std::pmr::vector<double> residual_, change_;  // one a difference
-  std::pmr::memory_resource* memory_;
+  std::pmr::vector<Difference> differences_{memory_};
+  std::pmr::vector<double> step_{free_.size() + 1, 0.0, memory_},
+      slope_{free_.size() + 1, 0.0, memory_};  // one a free place, and 0 for all that are known
+  std::pmr::vector<double> residual_{memory_}, change_{memory_};  // one a difference
 };
 
 constexpr double kLeastRadiusMm = 1;

@@ -31,19 +31,6 @@ void average_line(std::uint32_t* values, std::size_t count, std::size_t stride, 
 
 }  // namespace
 
-MaskShaper::MaskShaper(int columns, int rows, float cell_width_mm, float cell_height_mm,
-                       std::pmr::memory_resource* memory)
-    : columns_(columns),
-      rows_(rows),
-      cell_width_mm_(cell_width_mm),
-      cell_height_mm_(cell_height_mm),
-      along_row_(std::size_t(columns) * std::size_t(rows), 0.0F, memory),
-      nearest_(std::size_t(columns), 0.0F, memory),
-      piece_(memory),
-      before_(along_row_.size(), 0, memory) {
-  piece_.reserve(along_row_.size());
-}
-
 void MaskShaper::dilate(CellMask& mask, float radius_mm) { mark_within(mask, 1, radius_mm); }
 
 void MaskShaper::erode(CellMask& mask, float radius_mm) {

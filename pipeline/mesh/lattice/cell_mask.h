@@ -60,7 +60,14 @@ void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, 
 class MaskShaper {
  public:
   MaskShaper(int columns, int rows, float cell_width_mm, float cell_height_mm,
-             std::pmr::memory_resource* memory);
+             std::pmr::memory_resource* memory)
+      : columns_(columns),
+        rows_(rows),
+        cell_width_mm_(cell_width_mm),
+        cell_height_mm_(cell_height_mm),
+        memory_(memory) {
+    piece_.reserve(along_row_.size());
+  }
 
   void dilate(CellMask& mask, float radius_mm);
   void erode(CellMask& mask, float radius_mm);
@@ -86,10 +93,12 @@ class MaskShaper {
 
   int columns_, rows_;
   float cell_width_mm_, cell_height_mm_;
-  std::pmr::vector<float> along_row_;      // squared distance to the nearest wanted cell of the row, mm2
-  std::pmr::vector<float> nearest_;        // of one row: the same, of all rows
-  std::pmr::vector<std::uint32_t> piece_;  // cells of the flood at hand
-  CellMask before_;
+  std::pmr::memory_resource* memory_;
+  // Squared distance to the nearest wanted cell of the row, mm2; of one row: the same, of all rows.
+  std::pmr::vector<float> along_row_{std::size_t(columns_) * std::size_t(rows_), 0.0F, memory_};
+  std::pmr::vector<float> nearest_{std::size_t(columns_), 0.0F, memory_};
+  std::pmr::vector<std::uint32_t> piece_{memory_};  // cells of the flood at hand
+  CellMask before_{along_row_.size(), 0, memory_};
 };
 
 }  // namespace relievo::pipeline

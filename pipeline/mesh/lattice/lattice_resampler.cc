@@ -161,31 +161,6 @@ std::pmr::vector<float> lay_nodes(int old_nodes, const LatticeSpacing& spacing,
   return at;
 }
 
-// The new nodes, in cells of the old lattice.
-struct Nodes {
-  std::pmr::vector<float> x, y;
-};
-
-Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLattice& to,
-                std::pmr::memory_resource* memory) {
-  Nodes at{lay_nodes(from.columns, spacing, memory), lay_nodes(from.rows, spacing, memory)};
-  to.lay_out(int(at.x.size()), int(at.y.size()));
-  to.cell_width_mm = from.cell_width_mm * at.x.back() / float(to.columns - 1);
-  to.cell_height_mm = from.cell_height_mm * at.y.back() / float(to.rows - 1);
-  return at;
-}
-
-void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to, ThreadPool& pool) {
-  pool.for_each_band(to.rows, kBands, [&](int from, int until, int) {
-    for (int r = from; r < until; ++r)
-      for (int c = 0; c < to.columns; ++c) {
-        const std::size_t k = to.index(c, r);
-        to.node[k] = reader.read(reader.place(at.x[std::size_t(c)], at.y[std::size_t(r)]), to.at_mm[k],
-                                 to.sigma_mm[k]);
-      }
-  });
-}
-
 // A cell of the new lattice in those of the old: its first corner, and how wide and high it is.
 struct Window {
   float x, y, width, height;
@@ -250,9 +225,21 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
   ShapedLattice made{PointLattice(memory), CellMask(memory), old.outline};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
   const Reader reader(old.lattice);
-  const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
-  read_nodes(reader, at, made.lattice, pool);
+  const PointLattice& from = old.lattice;
+  const struct {
+    std::pmr::vector<float> x, y;  // the new nodes, in cells of the old lattice
+  } at{lay_nodes(from.columns, spacing, memory), lay_nodes(from.rows, spacing, memory)};
   PointLattice& l = made.lattice;
+  l.lay_out(int(at.x.size()), int(at.y.size()));
+  l.cell_width_mm = from.cell_width_mm * at.x.back() / float(l.columns - 1);
+  l.cell_height_mm = from.cell_height_mm * at.y.back() / float(l.rows - 1);
+  pool.for_each(l.rows, kBands, [&](int r) {
+    for (int c = 0; c < l.columns; ++c) {
+      const std::size_t k = l.index(c, r);
+      l.node[k] =
+          reader.read(reader.place(at.x[std::size_t(c)], at.y[std::size_t(r)]), l.at_mm[k], l.sigma_mm[k]);
+    }
+  });
   l.cells.assign(l.size(), 0);
   made.inside.assign(l.size(), 0);
   const auto cut = [&](int c, int r) {
@@ -264,9 +251,8 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
     made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
     l.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.outline.has_value());
   };
-  pool.for_each_band(l.rows - 1, kBands, [&](int from, int to, int) {
-    for (int r = from; r < to; ++r)
-      for (int c = 0; c + 1 < l.columns; ++c) cut(c, r);
+  pool.for_each(l.rows - 1, kBands, [&](int r) {
+    for (int c = 0; c + 1 < l.columns; ++c) cut(c, r);
   });
   return made;
 }
@@ -277,12 +263,10 @@ PointLattice lay_on_head(const PointLattice& old, const HeadChart& chart, float 
   const Vec3f centre = narrow(chart.centre_mm);
   const double step = std::sqrt(double(old.cell_width_mm) * double(old.cell_height_mm));
   std::pmr::vector<Vec2f> place(old.size(), Vec2f{}, memory);  // in steps
-  pool.for_each_band(int(old.size()), kBands, [&](int from, int to, int) {
-    for (auto k = std::size_t(from); k < std::size_t(to); ++k) {
-      if (old.node[k] == Node::Empty) continue;
-      const Vec2d p = chart.place(minus(old.at_mm[k], centre));
-      place[k] = {float(p.x / step), float(p.y / step)};
-    }
+  pool.for_each<std::size_t>(int(old.size()), kBands, [&](std::size_t k) {
+    if (old.node[k] == Node::Empty) return;
+    const Vec2d p = chart.place(minus(old.at_mm[k], centre));
+    place[k] = {float(p.x / step), float(p.y / step)};
   });
   float aside = 0;
   float above = 0;

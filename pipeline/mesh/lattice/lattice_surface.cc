@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/mesh/lattice/lattice_surface.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace relievo::pipeline {
 namespace {
 
@@ -49,44 +46,40 @@ float usual_distance(const PointLattice& l, int dx, int dy) {
 
 // Tests whether two neighbours continue one surface. A depth step is not known by its size alone: the
 // flank of a nose is as steep as a small step. It is known by leaving the slope found on both sides.
-class EdgeTest {
- public:
-  EdgeTest(const PointLattice& lattice, const LatticeLimits& limits) : lattice_(lattice), limits_(limits) {}
+struct EdgeTest {
+  const PointLattice& lattice;
+  const LatticeLimits& limits;
 
   bool joined(int column, int row, int dx, int dy) const {
-    const std::size_t a = lattice_.index(column, row);
-    const std::size_t b = lattice_.index(column + dx, row + dy);
-    if (lattice_.node[a] == Node::Empty || lattice_.node[b] == Node::Empty) return false;
-    const ViewEdge edge = edge_between(lattice_.at_mm[a], lattice_.at_mm[b]);
-    const float noise = limits_.step_sigmas * std::sqrt(lattice_.sigma_mm[a] * lattice_.sigma_mm[a] +
-                                                        lattice_.sigma_mm[b] * lattice_.sigma_mm[b]);
+    const std::size_t a = lattice.index(column, row);
+    const std::size_t b = lattice.index(column + dx, row + dy);
+    if (lattice.node[a] == Node::Empty || lattice.node[b] == Node::Empty) return false;
+    const ViewEdge edge = edge_between(lattice.at_mm[a], lattice.at_mm[b]);
+    const float noise = limits.step_sigmas * std::sqrt(lattice.sigma_mm[a] * lattice.sigma_mm[a] +
+                                                       lattice.sigma_mm[b] * lattice.sigma_mm[b]);
     const float depth = std::abs(edge.depth_mm);
     // Noise may excuse a slope, but never more than doubles what is allowed: a large sigma is no
     // licence to bridge a gap.
-    const float steepest = limits_.max_slope * edge.across_mm;
+    const float steepest = limits.max_slope * edge.across_mm;
     if (depth > steepest + std::min(noise, steepest)) return false;
-    if (depth <= limits_.min_step_mm + noise) return true;
+    if (depth <= limits.min_step_mm + noise) return true;
     const float before = slope_behind(column, row, -dx, -dy, a);
     const float after = slope_behind(column + dx, row + dy, dx, dy, b);
     const float usual = std::max({before, after, 1.0F}) * edge.across_mm;
-    return depth <= limits_.step_slope_ratio * usual + noise;
+    return depth <= limits.step_slope_ratio * usual + noise;
   }
 
- private:
   // The slope from node `k` at (column, row) one step further outwards; 0 where nothing is there.
   float slope_behind(int column, int row, int dx, int dy, std::size_t k) const {
     const int c = column + dx;
     const int r = row + dy;
-    if (!lattice_.inside(c, r)) return 0;
-    const std::size_t n = lattice_.index(c, r);
-    if (lattice_.node[n] == Node::Empty) return 0;
-    const ViewEdge edge = edge_between(lattice_.at_mm[k], lattice_.at_mm[n]);
+    if (!lattice.inside(c, r)) return 0;
+    const std::size_t n = lattice.index(c, r);
+    if (lattice.node[n] == Node::Empty) return 0;
+    const ViewEdge edge = edge_between(lattice.at_mm[k], lattice.at_mm[n]);
     const float slope = std::abs(edge.depth_mm) / edge.across_mm;
-    return slope > limits_.max_slope ? 0 : slope;  // beyond the limit it is another surface
+    return slope > limits.max_slope ? 0 : slope;  // beyond the limit it is another surface
   }
-
-  const PointLattice& lattice_;
-  const LatticeLimits& limits_;
 };
 
 struct CellEdges {
@@ -141,7 +134,7 @@ void join_neighbours(PointLattice& l, const LatticeLimits& limits, std::pmr::mem
   l.cells.assign(l.size(), 0);
   std::pmr::vector<std::uint8_t> right(l.size(), 0, memory);  // edge (c, r) to (c + 1, r)
   std::pmr::vector<std::uint8_t> down(l.size(), 0, memory);
-  const EdgeTest test(l, limits);
+  const EdgeTest test{l, limits};
   for (int r = 0; r < l.rows; ++r) {
     for (int c = 0; c < l.columns; ++c) {
       if (c + 1 < l.columns) right[l.index(c, r)] = test.joined(c, r, 1, 0);

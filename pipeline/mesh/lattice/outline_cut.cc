@@ -80,12 +80,7 @@ struct Place {
 class Cutter {
  public:
   Cutter(const PointLattice& lattice, float max_slope, std::pmr::memory_resource* memory)
-      : lattice_(lattice),
-        min_cosine_(cosine_of_slope(max_slope)),
-        over_(lattice.size(), 1.0F, memory),
-        snaps_(lattice.size(), Snap{}, memory),
-        number_(lattice.size(), kNone, memory),
-        cuts_(memory) {}
+      : lattice_(lattice), min_cosine_(cosine_of_slope(max_slope)), memory_(memory) {}
 
   void draw_lines(const ShapedLattice& shaped, const LatticeLimits& limits,
                   std::pmr::memory_resource* memory) {
@@ -231,10 +226,12 @@ class Cutter {
 
   const PointLattice& lattice_;
   float min_cosine_;
-  std::pmr::vector<float> over_;            // of a node: in above 0, out below, on the line at 0
-  std::pmr::vector<Snap> snaps_;            // of a node: where it moves
-  std::pmr::vector<std::uint32_t> number_;  // of a node among the vertices
-  std::pmr::vector<Place> cuts_;            // sorted; from inside to outside
+  std::pmr::memory_resource* memory_;
+  // Of a node: in above 0, out below, on the line at 0; where it moves; its number among the vertices.
+  std::pmr::vector<float> over_{lattice_.size(), 1.0F, memory_};
+  std::pmr::vector<Snap> snaps_{lattice_.size(), Snap{}, memory_};
+  std::pmr::vector<std::uint32_t> number_{lattice_.size(), kNone, memory_};
+  std::pmr::vector<Place> cuts_{memory_};  // sorted; from inside to outside
   std::uint32_t first_cut_ = 0;
 };
 

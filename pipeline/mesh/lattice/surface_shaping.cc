@@ -23,16 +23,7 @@ class GapCloser {
  public:
   GapCloser(PointLattice& lattice, const LatticeLimits& limits, MaskShaper& shaper,
             std::pmr::memory_resource* memory)
-      : lattice_(lattice),
-        limits_(limits),
-        shaper_(shaper),
-        cell_mm_(std::min(lattice.cell_width_mm, lattice.cell_height_mm)),
-        cell_mm2_(lattice.cell_width_mm * lattice.cell_height_mm),
-        whole_(lattice.size(), 0, memory),
-        gap_(lattice.size(), 0, memory),
-        was_gap_(lattice.size(), 0, memory),
-        large_(lattice.size(), 0, memory),
-        memory_(memory) {}
+      : lattice_(lattice), limits_(limits), shaper_(shaper), memory_(memory) {}
 
   void close() {
     drop_specks();
@@ -99,8 +90,11 @@ class GapCloser {
       const float width = std::hypot(edge.depth_mm, edge.across_mm) * (cells - 1) / cells;
       if (width > narrowest) continue;
       narrowest = width;
-      const bool continues =
-          continues_both(edge, width, -slope_behind(*from, {-way.c, -way.r}), slope_behind(*to, way));
+      const float before = -slope_behind(*from, {-way.c, -way.r}), after = slope_behind(*to, way);
+      const float most = std::max(before, after) * edge.across_mm;
+      const float least = std::min(before, after) * edge.across_mm;
+      const float allowed = limits_.min_step_mm + limits_.max_bend * width;
+      const bool continues = edge.depth_mm <= most + allowed && edge.depth_mm >= least - allowed;
       verdict = continues ? kBridged : kOpen;
     }
     return verdict;
@@ -121,24 +115,13 @@ class GapCloser {
                         opened.push_back(k);
                       });
     }
-    bridge_specks(opened);
-    for (std::uint8_t& gap : gap_) gap = gap != kOpen;
-  }
-
-  // A few open cells amid a bridge are noise of the verdicts: no occlusion is so small.
-  void bridge_specks(std::span<const std::uint32_t> opened) {
+    // A few open cells amid a bridge are noise of the verdicts: no occlusion is so small.
     std::fill(large_.begin(), large_.end(), std::uint8_t{0});
     for (const std::uint32_t k : opened) large_[k] = was_gap_[k];
     shaper_.drop_pieces_below(large_, std::size_t(kSpeckMm2 / cell_mm2_));
     for (const std::uint32_t k : opened)
       if (was_gap_[k] && !large_[k]) gap_[k] = kBridged;
-  }
-
-  bool continues_both(const ViewEdge& edge, float width, float before, float after) const {
-    const float most = std::max(before, after) * edge.across_mm;
-    const float least = std::min(before, after) * edge.across_mm;
-    const float allowed = limits_.min_step_mm + limits_.max_bend * width;
-    return edge.depth_mm <= most + allowed && edge.depth_mm >= least - allowed;
+    for (std::uint8_t& gap : gap_) gap = gap != kOpen;
   }
 
   // The first cell of the surface that way, or none within reach.
@@ -183,9 +166,11 @@ class GapCloser {
   PointLattice& lattice_;
   const LatticeLimits& limits_;
   MaskShaper& shaper_;
-  float cell_mm_, cell_mm2_;
-  CellMask whole_, gap_, was_gap_, large_;
+  float cell_mm_{std::min(lattice_.cell_width_mm, lattice_.cell_height_mm)},
+      cell_mm2_{lattice_.cell_width_mm * lattice_.cell_height_mm};
   std::pmr::memory_resource* memory_;
+  CellMask whole_{lattice_.size(), 0, memory_}, gap_{lattice_.size(), 0, memory_},
+      was_gap_{lattice_.size(), 0, memory_}, large_{lattice_.size(), 0, memory_};
 };
 
 }  // namespace
@@ -245,16 +230,6 @@ void grow(PointLattice& l, const CellMask& before, const CellMask& wanted, float
     if (gained[k]) l.cells[k] = best_cut(l, k, max_slope);
 }
 
-// See surface_shaping.h; `bow_mm` is the radius of the disc.
-void round_off_nicks(const PointLattice& l, CellMask& kept, float bow_mm, MaskShaper& shaper,
-                     std::pmr::memory_resource* memory) {
-  CellMask near_outside(kept, memory);
-  for (std::uint8_t& cell : near_outside) cell ^= 1;
-  shaper.dilate(near_outside, kRimMm);
-  for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (l.cells[k] != 0 || !near_outside[k]);
-  shaper.open(kept, bow_mm);
-}
-
 }  // namespace
 
 CellMask steep_cells(const PointLattice& l, float max_slope, const Vec3f& from_mm,
@@ -308,7 +283,12 @@ CellMask trim_outline(PointLattice& l, const LatticeLimits& limits, MaskShaper& 
     for (std::size_t k = 0; k < l.size(); ++k) kept[k] = given[k] || (kept[k] && before[k]);
     grow(l, before, kept, limits.max_slope, shaper, memory);
     for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && (before[k] || l.cells[k]);
-    round_off_nicks(l, kept, limits.min_width_mm, shaper, memory);
+    // Nicks are rounded off: see surface_shaping.h.
+    CellMask near_outside(kept, memory);
+    for (std::uint8_t& cell : near_outside) cell ^= 1;
+    shaper.dilate(near_outside, kRimMm);
+    for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (l.cells[k] != 0 || !near_outside[k]);
+    shaper.open(kept, limits.min_width_mm);
   }
   shaper.keep_largest_piece(kept);
   for (std::size_t k = 0; k < l.size(); ++k)

@@ -29,16 +29,7 @@ struct Cell {
 
 class Walker {
  public:
-  Walker(const BandVolume& volume, std::pmr::memory_resource* memory)
-      : volume_(volume),
-        cells_(memory),
-        corners_(memory),
-        crossed_(memory),
-        before_(memory),
-        centres_(memory),
-        result_(memory) {
-    strides_ = {1, std::size_t(volume.nx), std::size_t(volume.nx) * std::size_t(volume.ny)};
-  }
+  Walker(const BandVolume& volume, std::pmr::memory_resource* memory) : volume_(volume), memory_(memory) {}
 
   Polygonised walk() {
     std::size_t sides = 0, centres = 0;
@@ -217,14 +208,16 @@ class Walker {
   }
 
   const BandVolume& volume_;
-  std::array<std::size_t, 3> strides_{};
-  std::pmr::vector<std::size_t> cells_;      // that the surface passes through
-  std::pmr::vector<Crossing> corners_;       // of the triangles
-  std::pmr::vector<std::uint64_t> crossed_;  // a bit for each crossing there is
-  std::pmr::vector<std::uint32_t> before_;   // how many there are before a word of these
+  std::pmr::memory_resource* memory_;
+  std::array<std::size_t, 3> strides_{1, std::size_t(volume_.nx),
+                                      std::size_t(volume_.nx) * std::size_t(volume_.ny)};
+  std::pmr::vector<std::size_t> cells_{memory_};      // that the surface passes through
+  std::pmr::vector<Crossing> corners_{memory_};       // of the triangles
+  std::pmr::vector<std::uint64_t> crossed_{memory_};  // a bit for each crossing there is
+  std::pmr::vector<std::uint32_t> before_{memory_};   // how many there are before a word of these
   std::size_t crossings_ = 0;
-  std::pmr::vector<Vec3f> centres_;
-  Polygonised result_;
+  std::pmr::vector<Vec3f> centres_{memory_};
+  Polygonised result_{memory_};
 };
 
 }  // namespace

@@ -129,8 +129,7 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   if (context.stop()) return stopped();
   if (triangles.empty() || area_mm2(vertices, triangles) < options.min_area_mm2) return no_surface();
   if (triangles.size() > most)
-    return Error{Errc::InvalidInput, "the surface cannot be simplified to so few triangles: allow more"}.at(
-        "max_triangles");
+    return invalid("the surface cannot be simplified to so few triangles: allow more").at("max_triangles");
   FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) {
     return PackedVertex{vertices[v], carried[v]->sigma_mm, carried[v]->measured};
   });
@@ -180,10 +179,10 @@ Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, c
   const auto u_of = [&](std::size_t column) { return samples.left + options.step_mm * double(column); };
   const auto v_of = [&](int row) { return samples.top + options.step_mm * row; };
   std::pmr::vector<double> depths(columns * std::size_t(rows), 0.0, &context.scratch);
-  context.pool.for_each_band(rows, kBands, [&](int from, int to, int) {
-    for (int r = from; r < to && !context.stop(); ++r)
-      for (std::size_t c = 0; c < columns; ++c)
-        depths[std::size_t(r) * columns + c] = function(u_of(c), v_of(r));
+  context.pool.for_each(rows, kBands, [&](int r) {
+    if (context.stop()) return;
+    for (std::size_t c = 0; c < columns; ++c)
+      depths[std::size_t(r) * columns + c] = function(u_of(c), v_of(r));
   });
   if (context.stop()) return stopped();
   const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);

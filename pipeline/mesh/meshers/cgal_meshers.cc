@@ -127,17 +127,6 @@ bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageCon
   return !context.stop();
 }
 
-// One pass of 1 2 1 along one direction, over what is known. CGAL's function is linear from vertex to vertex
-// of its triangulation: left alone, the surface shows its facets.
-void smooth(BandVolume& volume, std::size_t stride, std::pmr::memory_resource* memory) {
-  const std::pmr::vector<float> before(volume.value, memory);
-  for (std::size_t k = stride; k + stride < before.size(); ++k) {
-    if (std::isnan(before[k])) continue;
-    const float low = before[k - stride], high = before[k + stride];
-    if (!std::isnan(low) && !std::isnan(high)) volume.value[k] = (low + 2 * before[k] + high) / 4;
-  }
-}
-
 }  // namespace
 
 Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& context) const {
@@ -150,8 +139,15 @@ Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& cont
   const std::size_t row = std::size_t(volume.nx);
   for (int pass = 0; pass < kSmoothings; ++pass)
     for (const std::size_t stride : {std::size_t{1}, row, row * std::size_t(volume.ny)}) {
+      // 1 2 1 along one direction, over what is known. CGAL's function is linear from vertex to vertex of its
+      // triangulation: left alone, the surface shows its facets.
       const Arena::Mark line(context.scratch);
-      smooth(volume, stride, &context.scratch);
+      const std::pmr::vector<float> before(volume.value, &context.scratch);
+      for (std::size_t k = stride; k + stride < before.size(); ++k) {
+        if (std::isnan(before[k])) continue;
+        const float low = before[k - stride], high = before[k + stride];
+        if (!std::isnan(low) && !std::isnan(high)) volume.value[k] = (low + 2 * before[k] + high) / 4;
+      }
     }
   Polygonised surface = polygonise(volume, &context.scratch);
   return finish_surface(base, surface.vertices_mm, surface.triangles, finish, context);
@@ -169,22 +165,6 @@ constexpr float
 bool usable(const CloudPoint& p) {
   return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
          std::isfinite(p.sigma_mm) && std::isfinite(p.left_px.x) && std::isfinite(p.left_px.y);
-}
-
-// Every k-th point, spread evenly over the cloud's order.
-std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> plane_points(const PointCloud& cloud,
-                                                                         int max_triangles, Arena& scratch) {
-  const std::size_t most = std::size_t(max_triangles) / 2;
-  const std::size_t wanted = std::min(most, cloud.points.size());
-  std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> points(&scratch);
-  points.reserve(wanted);
-  for (std::size_t i = 0; i < wanted; ++i) {
-    const std::size_t k = i * cloud.points.size() / wanted;
-    const CloudPoint& p = cloud.points[k];
-    if (usable(p))
-      points.emplace_back(Kernel::Point_2(double(p.left_px.x), double(p.left_px.y)), std::uint32_t(k));
-  }
-  return points;
 }
 
 bool shorter(std::span<const Vec3f> at, const Triangle& t, float longest_mm) {
@@ -213,7 +193,15 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
 // All triangles of the triangulation, wound counter-clockwise seen from the camera. In pixels y runs
 // down, so CGAL's counter-clockwise is clockwise on the screen.
 std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangles, Arena& scratch) {
-  auto points = plane_points(cloud, max_triangles, scratch);
+  const std::size_t wanted = std::min(std::size_t(max_triangles) / 2, cloud.points.size());
+  std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> points(&scratch);
+  points.reserve(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) {  // every k-th point, spread evenly over the cloud's order
+    const std::size_t k = i * cloud.points.size() / wanted;
+    const CloudPoint& p = cloud.points[k];
+    if (usable(p))
+      points.emplace_back(Kernel::Point_2(double(p.left_px.x), double(p.left_px.y)), std::uint32_t(k));
+  }
   Delaunay delaunay;
   delaunay.insert(points.begin(), points.end());
   std::pmr::vector<Triangle> triangles(&scratch);

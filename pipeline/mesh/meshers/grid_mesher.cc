@@ -39,21 +39,6 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
   return shaped;
 }
 
-// What was seen from within a head, as the cameras see it.
-void turn_outwards(FaceMesh& cut, const Vec3d& centre_mm) {
-  for (Vec3f& v : cut.vertices_mm) v = plus(v, narrow(centre_mm));
-  for (auto& t : cut.triangles) std::swap(t[1], t[2]);
-}
-
-// Loose parts, ears and slivers that the cut has left.
-void clean(FaceMesh& cut, float max_slope, StageContext& context) {
-  const Arena::Mark mark(context.scratch);  // it takes triangles away and adds none
-  keep_one_surface(cut.vertices_mm, cut.triangles, {}, &context.scratch);
-  if (context.stop()) return;
-  if (mend_slivers(cut.vertices_mm, cut.triangles, max_slope, &context.scratch) > 0)
-    keep_one_surface(cut.vertices_mm, cut.triangles, {.ear_passes = 0}, &context.scratch);
-}
-
 Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
                               StageContext& context) {
   Arena& scratch = context.scratch;
@@ -91,9 +76,17 @@ Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const G
   if (context.stop()) return stopped();
   FaceMesh cut = cut_outline(shaped, limits, max_slope, &scratch);
   if (context.stop()) return stopped();
-  clean(cut, max_slope, context);
+  {                                   // loose parts, ears and slivers that the cut has left
+    const Arena::Mark mark(scratch);  // it takes triangles away and adds none
+    keep_one_surface(cut.vertices_mm, cut.triangles, {}, &scratch);
+    if (!context.stop() && mend_slivers(cut.vertices_mm, cut.triangles, max_slope, &scratch) > 0)
+      keep_one_surface(cut.vertices_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  }
   if (context.stop()) return stopped();
-  if (shaped.outline) turn_outwards(cut, shaped.outline->chart.centre_mm);
+  if (shaped.outline) {  // seen from within a head: as the cameras see it
+    for (Vec3f& v : cut.vertices_mm) v = plus(v, narrow(shaped.outline->chart.centre_mm));
+    for (auto& t : cut.triangles) std::swap(t[1], t[2]);
+  }
   return cut;
 }
 

@@ -60,13 +60,7 @@ double plate(double square) { return square > 0 ? 0.5 * square * std::log(square
 class Rbf {
  public:
   Rbf(const DepthSamples& samples, const RbfMesher& options, StageContext& context)
-      : samples_(samples),
-        options_(options),
-        context_(context),
-        centres_(&context.scratch),
-        chosen_(samples.u.size(), 0, &context.scratch),
-        weights_(&context.scratch),
-        matrix_(&context.scratch) {
+      : samples_(samples), options_(options), context_(context) {
     const std::size_t most = std::min(std::size_t(options.max_centres), samples.u.size());
     const std::size_t side = most + 3;
     centres_.reserve(most);
@@ -152,13 +146,11 @@ class Rbf {
     const Arena::Mark turn(context_.scratch);
     const std::size_t n = std::min(kJudged, samples_.u.size());
     std::pmr::vector<Judged> judged(n, Judged{}, &context_.scratch);
-    context_.pool.for_each_band(int(n), kBands, [&](int from, int to, int) {
-      for (int k = from; k < to; ++k) {
-        const std::size_t i = std::size_t(k) * samples_.u.size() / n;
-        const double off = std::abs(at(samples_.u[i], samples_.v[i]) - samples_.depth[i]);
-        judged[std::size_t(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0),
-                                  std::uint32_t(i)};
-      }
+    context_.pool.for_each(int(n), kBands, [&](int k) {
+      const std::size_t i = std::size_t(k) * samples_.u.size() / n;
+      const double off = std::abs(at(samples_.u[i], samples_.v[i]) - samples_.depth[i]);
+      judged[std::size_t(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0),
+                                std::uint32_t(i)};
     });
     std::sort(judged.begin(), judged.end());
     const double area = (samples_.right - samples_.left) * (samples_.bottom - samples_.top);
@@ -182,10 +174,10 @@ class Rbf {
   const DepthSamples& samples_;
   const RbfMesher& options_;
   StageContext& context_;
-  std::pmr::vector<std::uint32_t> centres_;
-  std::pmr::vector<std::uint8_t> chosen_;
-  std::pmr::vector<double> weights_;  // of the centres, then of 1, x, y
-  std::pmr::vector<double> matrix_;
+  std::pmr::vector<std::uint32_t> centres_{&context_.scratch};
+  std::pmr::vector<std::uint8_t> chosen_{samples_.u.size(), 0, &context_.scratch};
+  std::pmr::vector<double> weights_{&context_.scratch};  // of the centres, then of 1, x, y
+  std::pmr::vector<double> matrix_{&context_.scratch};
   double middle_ = 0, scale_ = 1;
 };
 
@@ -229,14 +221,7 @@ class Normal {
   static constexpr int kReach = 3, kSide = 7;
 
   Normal(int columns, int rows, std::pmr::memory_resource* memory)
-      : columns_(columns),
-        rows_(rows),
-        ties_(size() * kSide * kSide, 0.0, memory),
-        right_(size(), 0.0, memory),
-        value_(size(), 0.0, memory),
-        residual_(memory),
-        step_(memory),
-        product_(memory) {}
+      : columns_(columns), rows_(rows), memory_(memory) {}
 
   std::size_t size() const { return std::size_t(columns_) * std::size_t(rows_); }
   std::size_t index(int c, int r) const { return std::size_t(r) * std::size_t(columns_) + std::size_t(c); }
@@ -298,23 +283,11 @@ class Normal {
   }
 
   int columns_, rows_;
-  std::pmr::vector<double> ties_, right_, value_, residual_, step_, product_;
+  std::pmr::memory_resource* memory_;
+  std::pmr::vector<double> ties_{size() * kSide * kSide, 0.0, memory_};
+  std::pmr::vector<double> right_{size(), 0.0, memory_}, value_{size(), 0.0, memory_};
+  std::pmr::vector<double> residual_{memory_}, step_{memory_}, product_{memory_};
 };
-
-// Squared second differences of the coefficients, twice the mixed one: the thin plate's energy on the net.
-void add_bending(Normal& normal, int columns, int rows, double weight) {
-  for (int r = 0; r < rows; ++r)
-    for (int c = 0; c < columns; ++c) {
-      if (c + 2 < columns)
-        normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c + 1, r, -2}, {c + 2, r, 1}}}, 0, weight);
-      if (r + 2 < rows)
-        normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c, r + 1, -2}, {c, r + 2, 1}}}, 0, weight);
-      if (c + 1 < columns && r + 1 < rows)
-        normal.add(
-            std::array<Normal::Term, 4>{{{c, r, 1}, {c + 1, r, -1}, {c, r + 1, -1}, {c + 1, r + 1, 1}}}, 0,
-            2 * weight);
-    }
-}
 
 struct Share {
   int whole;
@@ -351,7 +324,20 @@ BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bendin
     normal.add(terms, samples.depth[i] - middle_, weight);
     weights += weight;
   }
-  add_bending(normal, columns_ + 3, rows_ + 3, bending * weights / double(normal.size()));
+  // Squared second differences of the coefficients, twice the mixed one: the thin plate's energy on the net.
+  const int net_columns = columns_ + 3, net_rows = rows_ + 3;
+  const double bend = bending * weights / double(normal.size());
+  for (int r = 0; r < net_rows; ++r)
+    for (int c = 0; c < net_columns; ++c) {
+      if (c + 2 < net_columns)
+        normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c + 1, r, -2}, {c + 2, r, 1}}}, 0, bend);
+      if (r + 2 < net_rows)
+        normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c, r + 1, -2}, {c, r + 2, 1}}}, 0, bend);
+      if (c + 1 < net_columns && r + 1 < net_rows)
+        normal.add(
+            std::array<Normal::Term, 4>{{{c, r, 1}, {c + 1, r, -1}, {c, r + 1, -1}, {c + 1, r + 1, 1}}}, 0,
+            2 * bend);
+    }
   normal.solve(2000, 1e-14, context);
   const std::pmr::vector<double>& coefficient = normal.solution();
   for (int r = 0; r < rows_; ++r)

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/texture/blend/shot_planes.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "hal/base/statistics.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
-#include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -19,14 +16,6 @@ constexpr float kLeastCosine = 0.2F;  // completed surface grazed by a view may 
 constexpr float kLevels = 3, kShare = 0.17F;  // by which colour may leave that beside it ...
 constexpr float kHue = 0.025F;                // of a channel's part in all three
 constexpr float kMemory = 0.93F;              // ... which remembers so much of where it came from
-
-// Those that hold a vertex that was completed.
-std::pmr::vector<Triangle> completed_triangles(const FaceMesh& mesh, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Triangle> found(memory);
-  for (const Triangle& t : mesh.triangles)
-    if (!mesh.measured.empty() && !all_three(mesh.measured, t)) found.push_back(t);
-  return found;
-}
 
 // 1 at vertices that were completed and are joined by such to the surface's border nearby.
 std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
@@ -228,13 +217,8 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   VertexViews views(memory);
   views.share.resize(n);
   views.seen.resize(n);
-  const auto for_each_vertex = [&](auto&& work) {
-    constexpr int kBands = 32;
-    context.pool.for_each_band(int(n), kBands, [&](int begin, int end, int) {
-      for (int v = begin; v < end; ++v) work(std::size_t(v));
-    });
-  };
-  for_each_vertex([&](std::size_t v) {
+  constexpr int kBands = 32;
+  context.pool.for_each<std::size_t>(int(n), kBands, [&](std::size_t v) {
     const float towards_left = cosine_towards({}, mesh.vertices_mm[v], mesh.normals[v]);
     const float towards_right = cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]);
     const float least = mesh.measured.empty() || mesh.measured[v] != 0 ? 0 : kLeastCosine;
@@ -251,7 +235,9 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
     views.share[v] = l + r > 1e-6F ? r / (l + r) : 0.5F;
   });
   if (context.stop()) return views;
-  const auto parts = completed_triangles(mesh, memory);
+  std::pmr::vector<Triangle> parts(memory);  // those that hold a vertex that was completed
+  for (const Triangle& t : mesh.triangles)
+    if (!mesh.measured.empty() && !all_three(mesh.measured, t)) parts.push_back(t);
   const auto beyond = completed_to_border(mesh, parts, context);
   const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit, std::span<float> light) {
     const PhotoSampler photo(view.rgb, pair.width_px, pair.height_px);
@@ -264,7 +250,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
     if (context.stop()) return;
     forget_what_lies_behind(parts, beyond, bit, colour, views.seen, context);
     if (context.stop()) return;
-    for_each_vertex([&](std::size_t v) {
+    context.pool.for_each<std::size_t>(int(n), kBands, [&](std::size_t v) {
       const auto rgb = colour(std::uint32_t(v));
       light[v] = rgb[0] + rgb[1] + rgb[2] + 1;
     });
@@ -280,16 +266,14 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
 ShotPlanes shoot(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const RowBands& bands,
                  std::span<const FrontMap> maps, const VertexViews& views, std::span<const std::uint8_t> kept,
                  const ShotOptions& options, StageContext& context) {
-  ShotPlanes planes(chart.pixels(), &context.scratch);
+  ShotPlanes planes{chart.pixels(), &context.scratch};
   const std::size_t band_count = std::size_t(bands.count());
   std::pmr::vector<float> rows(band_count * 6 * std::size_t(pair.width_px), 0.0F, &context.scratch);
   std::pmr::vector<BoxSum> columns(band_count * std::size_t(chart.width_px), BoxSum{}, &context.scratch);
   Shooting shooting{mesh, pair, chart, bands, maps, views, kept, options, planes, rows, columns, context};
-  context.pool.for_each_band(bands.count(), bands.count(), [&shooting](int begin, int end, int) {
-    for (int band = begin; band < end; ++band) shooting.shoot_band(band);
-  });
-  context.pool.for_each_band(bands.count(), bands.count(), [&shooting](int begin, int end, int) {
-    for (int band = begin; band < end && !shooting.context.stop(); ++band) shooting.feather_band(band);
+  context.pool.for_each(bands.count(), bands.count(), [&shooting](int band) { shooting.shoot_band(band); });
+  context.pool.for_each(bands.count(), bands.count(), [&shooting](int band) {
+    if (!shooting.context.stop()) shooting.feather_band(band);
   });
   return planes;
 }

@@ -55,17 +55,14 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
                              StageContext& context);
 
 struct ShotPlanes {
-  ShotPlanes(std::size_t texels, std::pmr::memory_resource* memory)
-      : left(3 * texels, 0, memory),
-        right(3 * texels, 0, memory),
-        seen(texels, 0, memory),
-        share(texels, 0, memory),
-        say_left(texels, 0, memory),
-        say_right(texels, 0, memory) {}
-  std::pmr::vector<std::uint8_t> left, right;          // 3 a texel
-  std::pmr::vector<std::uint8_t> seen;                 // kSeenLeft | kSeenRight | kSurface
-  std::pmr::vector<std::uint8_t> share;                // of the right view by the angles alone, 0 to 255
-  std::pmr::vector<std::uint8_t> say_left, say_right;  // 255 where the view sees it, 0 near what hides it
+  std::size_t texels;
+  std::pmr::memory_resource* memory;
+  std::pmr::vector<std::uint8_t> left{3 * texels, 0, memory}, right{left, memory};  // 3 a texel
+  std::pmr::vector<std::uint8_t> seen{texels, 0, memory};  // kSeenLeft | kSeenRight | kSurface
+  // Of the right view by the angles alone, 0 to 255.
+  std::pmr::vector<std::uint8_t> share{texels, 0, memory};
+  // 255 where the view sees it, 0 near what hides it.
+  std::pmr::vector<std::uint8_t> say_left{texels, 0, memory}, say_right{texels, 0, memory};
 };
 
 // `kept`: one a triangle, 1 where the chart is its place. maps: middle, left, right.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "pipeline/base/parts.h"
 #include "pipeline/model/photo_sampler.h"
@@ -188,31 +187,27 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
   const auto width = std::size_t(chart_.width_px);
   std::pmr::vector<std::int16_t> raw(chart_.pixels(), kUnknown, &context.scratch);
   std::pmr::vector<BoxSum> columns(std::size_t(bands.count()) * width, BoxSum{}, &context.scratch);
-  const auto compare = [&](int begin, int end, int) {
-    for (std::size_t k = std::size_t(bands.rows(begin).begin) * width;
-         k < std::size_t(bands.rows(end - 1).end) * width; ++k)
+  context.pool.for_each(bands.count(), bands.count(), [&](int band) {
+    for (std::size_t k = std::size_t(bands.rows(band).begin) * width;
+         k < std::size_t(bands.rows(band).end) * width; ++k)
       if (planes_.say_left[k] != 0 && planes_.say_right[k] != 0)
         raw[k] = std::int16_t(16 * excess_of(&planes_.left[3 * k], &planes_.right[3 * k]));
-  };
-  const auto smooth = [&](int begin, int end, int) {
-    for (int band = begin; band < end; ++band)
-      slide_box(
-          chart_.width_px, chart_.height_px, kRadius, bands.rows(band),
-          std::span(columns).subspan(std::size_t(band) * width, width),
-          [&](int x, int y) {
-            const std::int16_t d = raw[chart_.index(x, y)];
-            return d == kUnknown ? BoxSum{} : BoxSum{d, 1};
-          },
-          [&](int x, int y, const BoxSum& sum) {
-            const std::size_t k = chart_.index(x, y);
-            if (raw[k] == kUnknown || sum.second == 0) return;
-            excess_[k] = std::int16_t(sum.first / sum.second);
-            shines_[k] = float(std::abs(excess_[k])) > 16 * level_ ? 1 : 0;
-          });
-  };
-  // By reference: the pool's callable takes no heap then.
-  context.pool.for_each_band(bands.count(), bands.count(), std::cref(compare));
-  context.pool.for_each_band(bands.count(), bands.count(), std::cref(smooth));
+  });
+  context.pool.for_each(bands.count(), bands.count(), [&](int band) {
+    slide_box(
+        chart_.width_px, chart_.height_px, kRadius, bands.rows(band),
+        std::span(columns).subspan(std::size_t(band) * width, width),
+        [&](int x, int y) {
+          const std::int16_t d = raw[chart_.index(x, y)];
+          return d == kUnknown ? BoxSum{} : BoxSum{d, 1};
+        },
+        [&](int x, int y, const BoxSum& sum) {
+          const std::size_t k = chart_.index(x, y);
+          if (raw[k] == kUnknown || sum.second == 0) return;
+          excess_[k] = std::int16_t(sum.first / sum.second);
+          shines_[k] = float(std::abs(excess_[k])) > 16 * level_ ? 1 : 0;
+        });
+  });
 }
 
 ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) const {

@@ -9,8 +9,6 @@
 // Texels: (0, 0) is the centre of the upper left texel. Thread: any. Throw std::bad_alloc.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <span>

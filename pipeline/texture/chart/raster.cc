@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/texture/chart/raster.h"
 
-#include <functional>
-
 namespace relievo::pipeline {
 
 RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr::memory_resource* memory)
@@ -83,11 +81,10 @@ void draw(const FaceMesh& mesh, const Chart& chart, std::span<const std::uint32_
 
 void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& bands,
                      std::span<FrontMap> maps, StageContext& context) {
-  const auto draw_bands = [&](int begin, int end, int) {
-    for (int band = begin; band < end && !context.stop(); ++band)
-      for (FrontMap& map : maps) draw(mesh, chart, bands.triangles(band), bands.rows(band), map);
-  };
-  context.pool.for_each_band(bands.count(), bands.count(), std::cref(draw_bands));  // by reference: no heap
+  context.pool.for_each(bands.count(), bands.count(), [&](int band) {
+    if (context.stop()) return;
+    for (FrontMap& map : maps) draw(mesh, chart, bands.triangles(band), bands.rows(band), map);
+  });
 }
 
 }  // namespace relievo::pipeline

@@ -97,14 +97,13 @@ class Builder {
     });
   }
 
-  void grow_all(SideCharts& sides) {
+  std::pmr::vector<Piece>& grow_all(SideCharts& sides) {
     sides.triangles.reserve(around_.members() / 3);
     sides.corner.reserve(around_.members());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       if (taken_[t] == 0) grow(t, sides);
+    return pieces_;
   }
-
-  std::pmr::vector<Piece>& pieces() { return pieces_; }
 
  private:
   bool seen(std::uint32_t triangle) const { return all_three(photographed_, mesh_.triangles[triangle]); }
@@ -122,8 +121,11 @@ class Builder {
       const auto& t = mesh_.triangles[sides.triangles[next]];
       for (const std::uint32_t v : t)
         for (const std::uint32_t other : around_[v]) {
-          if (taken_[other] != 0 || seen(other) != photograph || !share_an_edge(t, mesh_.triangles[other]))
-            continue;
+          const auto shared = [&](std::uint32_t corner) {
+            return std::ranges::count(mesh_.triangles[other], corner) > 0;
+          };
+          if (taken_[other] != 0 || seen(other) != photograph || std::ranges::count_if(t, shared) < 2)
+            continue;  // they share no edge
           if (dot(normal_of(mesh_, other), axis) < kSameWay || !plane_.take(mesh_, mesh_.triangles[other]))
             continue;
           taken_[other] = 1;
@@ -131,12 +133,6 @@ class Builder {
         }
     }
     lay_flat(from, photograph, sides);
-  }
-
-  static bool share_an_edge(const Triangle& a, const Triangle& b) {
-    int shared = 0;
-    for (const std::uint32_t v : a) shared += std::ranges::count(b, v) > 0 ? 1 : 0;
-    return shared >= 2;
   }
 
   void lay_flat(std::size_t from, bool photograph, SideCharts& sides) {
@@ -198,8 +194,7 @@ SideCharts lay_out_sides(const FaceMesh& mesh, const Chart& main, std::span<cons
   SideCharts sides(memory);
   if (std::ranges::all_of(kept, [](std::uint8_t k) { return k != 0; })) return sides;
   Builder builder(mesh, kept, photographed, memory);
-  builder.grow_all(sides);
-  auto& pieces = builder.pieces();
+  auto& pieces = builder.grow_all(sides);
   std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
     return a.width != b.width ? a.width > b.width : a.first < b.first;
   });

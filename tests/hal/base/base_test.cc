@@ -129,7 +129,10 @@ TEST(ThreadPool, EveryIndexExactlyOnceWhateverTheThreads) {
       pool.for_each_band(count, 13, [&](int begin, int end, int) {
         for (int i = begin; i < end; ++i) ++hits[static_cast<std::size_t>(i)];
       });
-      for (const auto& h : hits) EXPECT_EQ(h.load(), 1);
+      pool.for_each(count, 13, [&](int i) { ++hits[static_cast<std::size_t>(i)]; });
+      pool.for_each<std::size_t>(count, 13,
+                                 [&](std::size_t i, int band) { hits[i] += band >= 0 && band < 13 ? 1 : 9; });
+      for (const auto& h : hits) EXPECT_EQ(h.load(), 3);
     }
   }
 }

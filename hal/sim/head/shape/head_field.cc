@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/head/shape/head_field.h"
 
-#include "hal/sim/base/noise.h"
-
 namespace relievo::hal::sim {
 
 // Local frame of the left ear: x away from the head, y up along the ear, z towards the face.
@@ -313,16 +311,6 @@ double SkullForm::distance(Vec3 p) const {
   if (p.y < -20) d = join(d, neck(p), mix(30, 46, smoothstep(35, 0, p.z)));  // softest below the ear
   return d;
 }
-
-HeadField::HeadField(const HeadTraits& t)
-    : traits(t),
-      skull(t),
-      nose(t, skull),
-      mouth(t, skull),
-      eye(t, skull),
-      ear(t),
-      sway_a_(unit_from_hash(hash_cell(1, 2, 3, t.seed)) * 6.28),
-      sway_b_(unit_from_hash(hash_cell(4, 5, 6, t.seed)) * 6.28) {}
 
 Vec3 HeadField::swayed(Vec3 p) const {
   // No face is symmetric: two slow waves move its sides by up to a millimetre or so.

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "hal/base/thread_pool.h"
+#include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/form.h"
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/optics/ray_caster.h"
@@ -104,21 +105,23 @@ class EarForm {
 };
 
 struct HeadField {
-  explicit HeadField(const HeadTraits& traits);
+  explicit HeadField(const HeadTraits& t) : traits(t) {}
   double distance(Vec3 p) const;
   Vec3 gradient(Vec3 p) const;  // normalised; outward
   Vec3 swayed(Vec3 p) const;    // faces lean: where in the upright one a point was
   Vec3 warped(Vec3 p) const;    // where the symmetric sculpture of a closed mouth is asked
 
   HeadTraits traits;
-  SkullForm skull;
-  NoseForm nose;
-  MouthForm mouth;
-  EyeForm eye;
-  EarForm ear;
+  SkullForm skull{traits};
+  NoseForm nose{traits, skull};
+  MouthForm mouth{traits, skull};
+  EyeForm eye{traits, skull};
+  EarForm ear{traits};
 
  private:
-  double sway_a_, sway_b_;  // phases
+  // Phases.
+  double sway_a_ = unit_from_hash(hash_cell(1, 2, 3, traits.seed)) * 6.28;
+  double sway_b_ = unit_from_hash(hash_cell(4, 5, 6, traits.seed)) * 6.28;
 };
 
 // Turns an implicit surface into triangles: surface nets (S. Gibson, 1998) on a grid that is only

@@ -14,32 +14,6 @@ double measure(Random& r, const HeadTraits& t, double man, double woman, double 
   return mix(woman, man, t.masculine) + deviation * r.normal_within(1.9);
 }
 
-void draw_measures(Random& r, HeadTraits& t) {
-  t.head_breadth = measure(r, t, 151, 145, 4.5);
-  t.face_breadth = measure(r, t, 138, 131, 4.6);
-  t.jaw_breadth = measure(r, t, 108, 98, 5);
-  t.head_length = measure(r, t, 196, 187, 5);
-  t.nose_height = measure(r, t, 53.5, 50, 2.4);
-  t.upper_lip = measure(r, t, 22.3, 20.3, 1.6);
-  t.lower_face = measure(r, t, 49.5, 45, 3.0);
-  t.nose_width = measure(r, t, 36, 33, 3.0);
-  t.nose_protrusion = measure(r, t, 19.8, 19.0, 1.4);
-  t.intercanthal = measure(r, t, 33, 32, 1.9);
-  t.eye_fissure = measure(r, t, 31.2, 30.4, 1.1);
-  t.mouth_width = measure(r, t, 53.5, 50, 2.8);
-  t.ear_height = measure(r, t, 62.5, 59, 2.8);
-}
-
-void draw_form(Random& r, HeadTraits& t) {
-  for (double* form : {&t.brow_ridge, &t.bridge, &t.hump, &t.tip_up, &t.tip_size, &t.lip_fullness,
-                       &t.cheekbone, &t.fullness, &t.chin, &t.eye_tilt, &t.eye_open, &t.forehead, &t.lid_fold,
-                       &t.ear_out, &t.eye_depth, &t.mouth_curve, &t.chin_breadth})
-    *form = r.normal_within(1.7);
-  t.brow_ridge += 1.4 * (t.masculine - 0.5);
-  t.lip_fullness -= 0.9 * (t.masculine - 0.5);
-  t.chin_breadth += 1.2 * (t.masculine - 0.5);
-}
-
 void draw_looks(Random& r, HeadTraits& t) {
   static constexpr std::array<Vec3, 6> kSkin{Vec3{0.70, 0.47, 0.37}, {0.62, 0.40, 0.30}, {0.52, 0.31, 0.21},
                                              {0.40, 0.22, 0.14},     {0.25, 0.13, 0.08}, {0.14, 0.07, 0.045}};
@@ -81,8 +55,26 @@ HeadTraits traits_of(std::uint32_t seed) {
   t.seed = seed;
   t.masculine = smoothstep(0.15, 0.85, r.uniform());
   t.age = std::pow(r.uniform(), 1.4);
-  draw_measures(r, t);
-  draw_form(r, t);
+  t.head_breadth = measure(r, t, 151, 145, 4.5);
+  t.face_breadth = measure(r, t, 138, 131, 4.6);
+  t.jaw_breadth = measure(r, t, 108, 98, 5);
+  t.head_length = measure(r, t, 196, 187, 5);
+  t.nose_height = measure(r, t, 53.5, 50, 2.4);
+  t.upper_lip = measure(r, t, 22.3, 20.3, 1.6);
+  t.lower_face = measure(r, t, 49.5, 45, 3.0);
+  t.nose_width = measure(r, t, 36, 33, 3.0);
+  t.nose_protrusion = measure(r, t, 19.8, 19.0, 1.4);
+  t.intercanthal = measure(r, t, 33, 32, 1.9);
+  t.eye_fissure = measure(r, t, 31.2, 30.4, 1.1);
+  t.mouth_width = measure(r, t, 53.5, 50, 2.8);
+  t.ear_height = measure(r, t, 62.5, 59, 2.8);
+  for (double* form : {&t.brow_ridge, &t.bridge, &t.hump, &t.tip_up, &t.tip_size, &t.lip_fullness,
+                       &t.cheekbone, &t.fullness, &t.chin, &t.eye_tilt, &t.eye_open, &t.forehead, &t.lid_fold,
+                       &t.ear_out, &t.eye_depth, &t.mouth_curve, &t.chin_breadth})
+    *form = r.normal_within(1.7);
+  t.brow_ridge += 1.4 * (t.masculine - 0.5);
+  t.lip_fullness -= 0.9 * (t.masculine - 0.5);
+  t.chin_breadth += 1.2 * (t.masculine - 0.5);
   draw_looks(r, t);
   return t;
 }

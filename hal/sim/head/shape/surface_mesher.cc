@@ -75,21 +75,6 @@ bool cell_point(const Grid& g, int x, int y, int z, Vec3& out) {
   return true;
 }
 
-void add_points(const Grid& g, Mesh& mesh, std::vector<std::int32_t>& index) {
-  for (int z = 0; z + 1 < g.nz; ++z)
-    for (int y = 0; y + 1 < g.ny; ++y)
-      for (int x = 0; x + 1 < g.nx; ++x) {
-        Vec3 p;
-        // Slabs are filled one by one, so the last sample plane belongs to no block.
-        if (x + 2 >= g.nx || y + 2 >= g.ny || z + 2 >= g.nz ||
-            g.live[g.block(x / kBlock, y / kBlock, z / kBlock)] == 0)
-          continue;
-        if (!cell_point(g, x, y, z, p)) continue;
-        index[g.at(x, y, z)] = std::int32_t(mesh.points.size());
-        mesh.points.push_back(to_floats(p));
-      }
-}
-
 // Every grid edge that changes sign is the middle of a quad of four cells.
 void add_quads(const Grid& g, Mesh& mesh, const std::vector<std::int32_t>& index) {
   const std::array<std::size_t, 3> stride{g.at(1, 0, 0), g.at(0, 1, 0), g.at(0, 0, 1)};
@@ -120,22 +105,20 @@ void add_quads(const Grid& g, Mesh& mesh, const std::vector<std::int32_t>& index
 // Newton's steps along the gradient, kept short: at a sharp seam the gradient jumps.
 void settle(Mesh& mesh, std::size_t first, const Field& field, double longest_mm, ThreadPool& pool) {
   const int count = int(mesh.points.size() - first);
-  pool.for_each_band(count, 64, [&](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) {
-      const std::size_t k = first + std::size_t(i);
-      Vec3 p = point_of(mesh, k);
-      for (int turn = 0; turn < 2; ++turn) {
-        constexpr double e = 0.05;
-        const double f = field(p);
-        const Vec3 slope{(field(p + Vec3{e, 0, 0}) - f) / e, (field(p + Vec3{0, e, 0}) - f) / e,
-                         (field(p + Vec3{0, 0, e}) - f) / e};
-        const Vec3 step = slope * (-f / std::max(dot(slope, slope), 0.05));
-        const double l = length(step);
-        p += step * std::min(1.0, longest_mm / std::max(l, 1e-9));
-        if (l < 0.01) break;
-      }
-      mesh.points[k] = to_floats(p);
+  pool.for_each(count, 64, [&](int i) {
+    const std::size_t k = first + std::size_t(i);
+    Vec3 p = point_of(mesh, k);
+    for (int turn = 0; turn < 2; ++turn) {
+      constexpr double e = 0.05;
+      const double f = field(p);
+      const Vec3 slope{(field(p + Vec3{e, 0, 0}) - f) / e, (field(p + Vec3{0, e, 0}) - f) / e,
+                       (field(p + Vec3{0, 0, e}) - f) / e};
+      const Vec3 step = slope * (-f / std::max(dot(slope, slope), 0.05));
+      const double l = length(step);
+      p += step * std::min(1.0, longest_mm / std::max(l, 1e-9));
+      if (l < 0.01) break;
     }
+    mesh.points[k] = to_floats(p);
   });
 }
 
@@ -144,12 +127,21 @@ void settle(Mesh& mesh, std::size_t first, const Field& field, double longest_mm
 Mesh mesh_of_field(const Field& field, const Box& box, double step_mm, ThreadPool& pool) {
   Grid grid(box, step_mm);
   const int slabs = grid.nz / kBlock;
-  pool.for_each_band(slabs, slabs, [&](int begin, int end, int) {
-    for (int bz = begin; bz < end; ++bz) fill_slab(grid, field, bz);
-  });
+  pool.for_each(slabs, slabs, [&](int bz) { fill_slab(grid, field, bz); });
   Mesh mesh;
   std::vector<std::int32_t> index(grid.value.size(), -1);
-  add_points(grid, mesh, index);
+  for (int z = 0; z + 1 < grid.nz; ++z)
+    for (int y = 0; y + 1 < grid.ny; ++y)
+      for (int x = 0; x + 1 < grid.nx; ++x) {
+        Vec3 p;
+        // Slabs are filled one by one, so the last sample plane belongs to no block.
+        if (x + 2 >= grid.nx || y + 2 >= grid.ny || z + 2 >= grid.nz ||
+            grid.live[grid.block(x / kBlock, y / kBlock, z / kBlock)] == 0)
+          continue;
+        if (!cell_point(grid, x, y, z, p)) continue;
+        index[grid.at(x, y, z)] = std::int32_t(mesh.points.size());
+        mesh.points.push_back(to_floats(p));
+      }
   add_quads(grid, mesh, index);
   settle(mesh, 0, field, step_mm * 0.5, pool);
   return mesh;

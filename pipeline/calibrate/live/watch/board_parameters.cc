@@ -80,8 +80,6 @@ BoardOutline as_seen(const BoardOutline& outline) {
   return seen_so;
 }
 
-double area_of(const BoardOutline& o) { return 0.5 * std::abs(cross(minus(o[2], o[0]), minus(o[3], o[1]))); }
-
 double angle_at(const Vec2d& a, const Vec2d& at, const Vec2d& b) {
   const Vec2d u = minus(a, at);
   const Vec2d v = minus(b, at);
@@ -184,7 +182,8 @@ BoardParameters parameters_of(const BoardCorners& corners, const BoardPattern& p
   BoardParameters p;
   const double width = width_px;
   const double height = height_px;
-  const double border = std::sqrt(area_of(outline));
+  const double border =
+      std::sqrt(0.5 * std::abs(cross(minus(outline[2], outline[0]), minus(outline[3], outline[1]))));
   Vec2d middle;
   for (const Vec2d& at : outline) middle = {middle.x + 0.25 * at.x, middle.y + 0.25 * at.y};
   p.across = (middle.x + 0.5) / width;

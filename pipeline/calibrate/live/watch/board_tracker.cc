@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "hal/base/statistics.h"
 
@@ -225,7 +224,7 @@ void BoardTracker::reduce(const ImageView& picture) {
 }
 
 Result<BoardDetection> BoardTracker::look(const ImageView& picture) {
-  if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
+  if (picture.empty()) return invalid("there is no picture to look for a board in");
   reduce(picture);
   const ImageView small{grey_.data(), width_px_, height_px_, width_px_, PixelFormat::Grey8};
   BoardCorners found;

@@ -41,7 +41,7 @@ using Candidates = std::pmr::vector<Candidate>;
 Result<void> check_start(const RectifiedPair& pair, StageContext& context) {
   RELIEVO_TRY(check_pixels(pair));
   if (!pair.region.empty() && pair.region.size() != pair.left.grey.size())
-    return Error{Errc::InvalidInput, "the region is not the pair's"};
+    return invalid("the region is not the pair's");
   if (context.stop()) return stopped();
   return {};
 }
@@ -196,28 +196,20 @@ Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, cons
 
 namespace {
 
-struct Gradient {
-  float x, y;
-};
-
-Gradient sobel(const float* above, const float* here, const float* below, int x) {
-  const float left = above[x - 1] + 2 * here[x - 1] + below[x - 1];
-  const float right = above[x + 1] + 2 * here[x + 1] + below[x + 1];
-  const float top = above[x - 1] + 2 * above[x] + above[x + 1];
-  const float bottom = below[x - 1] + 2 * below[x] + below[x + 1];
-  return {0.125F * (right - left), 0.125F * (bottom - top)};
-}
-
-// Products of the gradient; 0 along the picture's edge.
+// Products of the gradient (Sobel's); 0 along the picture's edge.
 void products(const std::pmr::vector<float>& grey, ThreadPool& pool, Plane<float>& xx, Plane<float>& xy,
               Plane<float>& yy) {
-  pool.for_each_band(xx.height - 2, kBands, [&](int begin, int end, int) {
-    for (int y = begin + 1; y < end + 1; ++y) {
-      const float* here = grey.data() + std::ptrdiff_t(y) * xx.width;
-      for (int x = 1; x + 1 < xx.width; ++x) {
-        const Gradient g = sobel(here - xx.width, here, here + xx.width, x);
-        xx.row(y)[x] = g.x * g.x, xy.row(y)[x] = g.x * g.y, yy.row(y)[x] = g.y * g.y;
-      }
+  pool.for_each(xx.height - 2, kBands, [&](int above) {
+    const int y = above + 1;
+    const float* here = grey.data() + std::ptrdiff_t(y) * xx.width;
+    for (int x = 1; x + 1 < xx.width; ++x) {
+      const float *up = here - xx.width, *low = here + xx.width;
+      const float left = up[x - 1] + 2 * here[x - 1] + low[x - 1];
+      const float right = up[x + 1] + 2 * here[x + 1] + low[x + 1];
+      const float top = up[x - 1] + 2 * up[x] + up[x + 1];
+      const float bottom = low[x - 1] + 2 * low[x] + low[x + 1];
+      const Vec2f g{0.125F * (right - left), 0.125F * (bottom - top)};
+      xx.row(y)[x] = g.x * g.x, xy.row(y)[x] = g.x * g.y, yy.row(y)[x] = g.y * g.y;
     }
   });
 }
@@ -356,12 +348,11 @@ Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectab
   const float side = float(2 * window.radius_px + 1);
   const float mean = 1 / std::pow(side, float(2 * window.passes));
   const int margin = window.reach_px();
-  context.pool.for_each_band(response.height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < response.width; ++x)
-        if (selectable(x, y, margin))
-          response.row(y)[x] = std::max(
-              0.0F, measure(mean * xx.row(y)[x], mean * xy.row(y)[x], mean * yy.row(y)[x], parameter));
+  context.pool.for_each(response.height, kBands, [&](int y) {
+    for (int x = 0; x < response.width; ++x)
+      if (selectable(x, y, margin))
+        response.row(y)[x] =
+            std::max(0.0F, measure(mean * xx.row(y)[x], mean * xy.row(y)[x], mean * yy.row(y)[x], parameter));
   });
   if (context.stop()) return stopped();
   return {};

@@ -26,7 +26,7 @@ Pyramids pyramids_of(const RectifiedPair& pair, Arena& memory) {
     for (int level = 1; level <= kCoarseLevel; ++level) {
       const PyramidLevel& from = (*levels)[static_cast<std::size_t>(level - 1)];
       PyramidLevel half(&memory, (from.grey.width + 1) / 2, (from.grey.height + 1) / 2);
-      halve_rows(from, half, 0, half.grey.height);
+      for (int y = 0; y < half.grey.height; ++y) halve_row(from, half, y);
       levels->push_back(std::move(half));
     }
   }
