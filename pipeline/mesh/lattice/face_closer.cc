@@ -34,7 +34,8 @@ constexpr double kUnsure = 6;        // times the usual sigma: in the lower face
 constexpr double kBelowTipMm = 2;    // of a nose begins the lower face
 constexpr double kStepCells = 8;     // of radius between neighbours, in widths of a cell: more is no slope
 constexpr double kChinBelowPogonion = 22;
-constexpr double kBelowChin = 4;  // of the lowest skin of it that was seen: what follows is throat
+constexpr double kBelowChin = 1;  // of the lowest skin of it that was seen: what follows is throat
+constexpr double kChinHalf = 4;   // of its width, on which its end is looked for
 constexpr double kChinFrom = -55, kChinGap = 10;  // below the tip of the nose; of what is still the same chin
 constexpr double kShortest = 70, kLongest = 110;  // of what lies below the tip of a nose
 
@@ -72,22 +73,26 @@ FaceMesh rough_surface(const PointLattice& l, Arena& scratch) {
   return mesh;
 }
 
-// Where the skin ends that was seen of a chin, or where that should begin; the profile runs upwards.
-double lowest_of_chin(std::span<const ProfilePoint> profile, double from_mm) {
-  double lowest = from_mm;
-  for (auto at = profile.rbegin(); at != profile.rend(); ++at)
-    if (at->y_mm < lowest && at->y_mm > lowest - kChinGap) lowest = at->y_mm;
-  return lowest;
-}
-
-FaceOutline outline_of(const FaceMesh& rough, const RigidTransform& head_from_camera, Arena& scratch) {
+FaceOutline outline_of(const PointLattice& seen, const FaceMesh& rough,
+                       const RigidTransform& head_from_camera, Arena& scratch) {
   FaceOutline outline{HeadChart(head_from_camera)};
   const auto profile = profile_of(rough, head_from_camera, &scratch);
   const ProfileMarks marks = find_profile_marks(profile);
   const auto chin = marks.chin_recedes ? std::nullopt : marks.chin;
   if (chin) outline.below_mm = kChinBelowPogonion - chin->y_mm;
   const double from = chin ? chin->y_mm : kChinFrom;
-  const double lowest = lowest_of_chin(profile, from);
+  // Where the skin ends that was seen of a chin, or where that should begin; the profile runs upwards.
+  double lowest = from;
+  for (auto at = profile.rbegin(); at != profile.rend(); ++at)
+    if (at->y_mm < lowest && at->y_mm > lowest - kChinGap) lowest = at->y_mm;
+  // The rough surface ends up to a whole block earlier than what was measured.
+  const double ends_early = lowest - kEvery * double(seen.cell_height_mm) - 1;
+  for (int r = 0; r < seen.rows && lowest < from; ++r)
+    for (int c = 0; c < seen.columns; ++c) {
+      if (!carries_surface(seen, c, r)) continue;
+      const Vec3d at = apply(head_from_camera, wide(seen.at_mm[seen.index(c, r)]));
+      if (std::abs(at.x) < kChinHalf && at.y > ends_early) lowest = std::min(lowest, at.y);
+    }
   if (lowest < from) outline.below_mm = std::min(outline.below_mm, kBelowChin - lowest);
   outline.below_mm = std::clamp(outline.below_mm, kShortest, kLongest);
   return outline;
@@ -274,7 +279,7 @@ Result<std::optional<ShapedLattice>> close_face(const PointLattice& seen, const 
   const auto head = find_head_frame(rough, context, right_camera_mm);
   if (!head && head.error().code == Errc::Cancelled) return head.error();
   if (!head) return std::optional<ShapedLattice>{};
-  const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);
+  const FaceOutline outline = outline_of(seen, rough, head->head_from_camera, scratch);
   PointLattice l = lay_on_head(seen, outline.chart, kRoomMm, context.pool, &scratch);
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ShapedLattice>{};
   if (context.stop()) return stopped();
