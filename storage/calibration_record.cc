@@ -3,7 +3,6 @@
 #include "storage/calibration_record.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>

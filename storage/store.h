@@ -110,9 +110,10 @@ class Store {
   virtual Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) = 0;
 };
 
-// What is done with a store as a whole, by whoever looks after the device, while no kiosk has it open. Each
-// verb opens the store by itself and closes it; all of it is on the disk when it returns without an error,
-// none of it otherwise. Errors: as opening a store, and those named. Thread: one at a time.
+// What is done with a store as a whole, by whoever looks after the device. What changes it is refused
+// (Timeout) while a kiosk has it open. Each verb opens the store by itself and closes it; all of it is on the
+// disk when it returns without an error, none of it otherwise. Errors: as opening a store, and those named.
+// Thread: one at a time.
 
 // Where the appliance's key moves to: a file as text, or beside the store, sealed by the board's TPM.
 // Neither: it stays where and as it is.
@@ -134,11 +135,12 @@ class StoreKeeping {
   virtual Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) = 0;
 
   // New keys for the appliance and the store; every wrapped key is wrapped anew. Older copies keep theirs.
-  // InvalidInput: the file it is to move to is there, and is not this store's key.
+  // InvalidInput: the file it is to move to is there, and is not this store's key. StoreCorrupt also: the
+  // recovery words no longer open it.
   virtual Result<void> rekey(const KeyPlace& to) = 0;
 
   // A new appliance's key for a store whose own is lost, by its recovery words. NotFound: it has none.
-  // InvalidInput: the key file that was named is another store's.
+  // InvalidInput: the key file that was named is another store's, or is no key.
   // Returns who was in it and is erased again, because they were after this copy of the store was made.
   virtual Result<std::vector<SubjectId>> recover(std::string_view words) = 0;
 };

@@ -56,11 +56,14 @@ Result<void> read_key_of(const fs::path& file, SecretKey& key, bool must_be_priv
 
 class KeyFile final : public KeySource {
  public:
-  KeyFile(fs::path file, bool beside_the_store, NextKey next)
-      : file_(std::move(file)), beside_(beside_the_store), next_is_(next) {}
+  KeyFile(fs::path file, bool beside_the_store, NextKey next, fs::path owner_of)
+      : file_(std::move(file)), beside_(beside_the_store), next_is_(next), owner_of_(std::move(owner_of)) {
+    if (owner_of_.empty()) owner_of_ = beside_ ? file_.parent_path() : file_;
+  }
   Result<void> read(SecretKey& key) override { return read_key_of(file_, key, true); }
   Result<void> read_next(SecretKey& key) override { return read_key_of(next(), key, true); }
   Result<void> make_next(SecretKey& key) override {
+    RELIEVO_TRY(must_give_way());
     key.draw();
     if (!is_to_be_sealed()) {
       RELIEVO_TRY_ASSIGN(const auto text, key_text(key));
@@ -88,6 +91,22 @@ class KeyFile final : public KeySource {
   }
 
  private:
+  // A new key replaces what is there for ever. Beside the store that is the store's own, however damaged;
+  // elsewhere what is no key is somebody's. What a dead TPM sealed opens nothing any more.
+  Result<void> must_give_way() const {
+    std::error_code ignored;
+    if (fs::is_directory(file_, ignored))
+      return Error{Errc::InvalidInput, "is a folder, and no key: name another"}.at(file_.native());
+    if (beside_) return {};
+    std::size_t size = 0;
+    RELIEVO_TRY_ASSIGN(auto old, SecretKey::make());
+    const auto room = read_file(file_, false, size);
+    if (!room) return room.error().code == Errc::NotFound ? Result<void>() : room.error();
+    if (size == 0 || is_sealed_by_tpm(room->bytes().first(size))) return {};
+    if (!read_key_of(file_, old, false))
+      return Error{Errc::InvalidInput, "is there, and is no key: name another"}.at(file_.native());
+    return read_key_of(file_, old, true);  // whose it is could not be told otherwise
+  }
   bool is_to_be_sealed() const {
     if (next_is_ != NextKey::AsBefore) return next_is_ == NextKey::SealedByTpm;
     std::error_code ignored;
@@ -96,7 +115,7 @@ class KeyFile final : public KeySource {
   Result<void> put_next(std::span<const std::byte> bytes) const {
     RELIEVO_TRY_ASSIGN(auto file, PendingFile::create(next(), 0600));
     // Changed by root, it stays the kiosk's to read.
-    file.give_to_owner_of(beside_ ? file_.parent_path() : file_);
+    file.give_to_owner_of(owner_of_);
     RELIEVO_TRY(file.write(bytes));
     RELIEVO_TRY(file.finish());
     RELIEVO_TRY(file.publish());
@@ -106,6 +125,7 @@ class KeyFile final : public KeySource {
   fs::path file_;
   bool beside_;
   NextKey next_is_;
+  fs::path owner_of_;
 };
 
 class KeyCredential final : public KeySource {
@@ -131,8 +151,8 @@ class KeyCredential final : public KeySource {
 
 }  // namespace
 
-std::unique_ptr<KeySource> key_file(fs::path file, bool beside_the_store, NextKey next) {
-  return std::make_unique<KeyFile>(std::move(file), beside_the_store, next);
+std::unique_ptr<KeySource> key_file(fs::path file, bool beside_the_store, NextKey next, fs::path owner_of) {
+  return std::make_unique<KeyFile>(std::move(file), beside_the_store, next, std::move(owner_of));
 }
 std::unique_ptr<KeySource> key_credential(fs::path file) {
   return std::make_unique<KeyCredential>(std::move(file));

@@ -25,7 +25,7 @@ class KeySource {
   virtual Result<void> read(SecretKey& key) = 0;
   // A key is changed in two steps, so that a power cut leaves one that opens the store: the next lies beside
   // the one in use until the store goes by it, then takes its place. On the disk when each returns.
-  // Unsupported: this source only reads.
+  // Unsupported: this source only reads. InvalidInput: what is there is no key, and would be replaced.
   virtual Result<void> make_next(SecretKey& key) = 0;  // drawn
   virtual Result<void> read_next(SecretKey& key) = 0;
   virtual Result<void> take_next() = 0;
@@ -40,10 +40,11 @@ class KeySource {
 enum class NextKey : std::uint8_t { Plain, SealedByTpm, AsBefore };
 
 // A file of key_text() or of what the TPM sealed, 0600; the next one is FILE.next. One that others may read
-// is refused. `beside_the_store`: whoever takes the store takes it along. Errors further: those of
-// open_by_tpm().
+// is refused. `beside_the_store`: whoever takes the store takes it along. `owner_of`: whose owner may read a
+// key that root makes; empty: beside the store its folder's, else that of the key it follows. Errors further:
+// those of open_by_tpm().
 std::unique_ptr<KeySource> key_file(std::filesystem::path file, bool beside_the_store = true,
-                                    NextKey next = NextKey::Plain);
+                                    NextKey next = NextKey::Plain, std::filesystem::path owner_of = {});
 bool is_key_sealed_by_tpm(const std::filesystem::path& file);
 
 // A systemd credential: a file in $CREDENTIALS_DIRECTORY, which systemd decrypted (systemd.exec(5)). Its

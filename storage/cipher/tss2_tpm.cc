@@ -67,8 +67,7 @@ TPM2B_PUBLIC primary_template() {
 class Tpm {
  public:
   Tpm() = default;
-  Tpm(const Tpm&) = delete;
-  Tpm& operator=(const Tpm&) = delete;
+  Tpm& operator=(Tpm&&) = delete;
   ~Tpm() {
     for (const ESYS_TR one : {object_, session_, primary_})
       if (one != ESYS_TR_NONE) Esys_FlushContext(esys_, one);

@@ -10,7 +10,6 @@
 // the store's, since it is a file that somebody brought. Thread: any, one at a time.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -18,10 +17,8 @@
 #include <map>
 #include <memory>
 #include <memory_resource>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"

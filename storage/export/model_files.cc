@@ -9,8 +9,6 @@
 #include <functional>
 #include <new>
 #include <span>
-#include <string>
-#include <string_view>
 #include <system_error>
 
 #include "hal/base/whole_file.h"
@@ -138,34 +136,6 @@ std::string page(const pipeline::RecognitionImages& images, const pipeline::Land
          range_text(images.range) + "}\n";
 }
 
-}  // namespace
-
-Result<std::vector<BundleFile>> recognition_files(const pipeline::RecognitionImages& images,
-                                                  const pipeline::Landmarks& landmarks,
-                                                  const pipeline::RigidTransform& head_from_camera,
-                                                  std::string_view version) {
-  const Portrait& p = images.portrait;
-  const RangeImage& r = images.range;
-  std::vector<BundleFile> files;
-  const auto add = [&](const char* name, Result<std::vector<std::byte>> bytes) -> Result<void> {
-    if (!bytes) return bytes.error();
-    files.push_back({name, *std::move(bytes)});
-    return {};
-  };
-  RELIEVO_TRY(add("portrait.png", png_of(p.width_px, p.height_px, p.rgb, PixelFormat::Rgb8)));
-  RELIEVO_TRY(
-      add("portrait_shows.png", png_of(p.width_px, p.height_px, visible(p.shows), PixelFormat::Grey8)));
-  RELIEVO_TRY(add("range.png", png_of(r.width_px, r.height_px, heights(r), PixelFormat::Grey16)));
-  RELIEVO_TRY(add("range_sigma.png", png_of(r.width_px, r.height_px, sigmas(r), PixelFormat::Grey16)));
-  RELIEVO_TRY(add("range_shows.png", png_of(r.width_px, r.height_px, visible(r.shows), PixelFormat::Grey8)));
-  const std::string text = page(images, landmarks, head_from_camera, version);
-  const auto bytes = bytes_of(text);
-  files.push_back({"recognition.json", {bytes.begin(), bytes.end()}});
-  return files;
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 
 Result<void> make_directory(const fs::path& dir) {
@@ -245,6 +215,30 @@ Result<void> make_all(const pipeline::FaceModel& model, const ExportOptions& opt
 }
 
 }  // namespace
+
+Result<std::vector<BundleFile>> recognition_files(const pipeline::RecognitionImages& images,
+                                                  const pipeline::Landmarks& landmarks,
+                                                  const pipeline::RigidTransform& head_from_camera,
+                                                  std::string_view version) {
+  const Portrait& p = images.portrait;
+  const RangeImage& r = images.range;
+  std::vector<BundleFile> files;
+  const auto add = [&](const char* name, Result<std::vector<std::byte>> bytes) -> Result<void> {
+    if (!bytes) return bytes.error();
+    files.push_back({name, *std::move(bytes)});
+    return {};
+  };
+  RELIEVO_TRY(add("portrait.png", png_of(p.width_px, p.height_px, p.rgb, PixelFormat::Rgb8)));
+  RELIEVO_TRY(
+      add("portrait_shows.png", png_of(p.width_px, p.height_px, visible(p.shows), PixelFormat::Grey8)));
+  RELIEVO_TRY(add("range.png", png_of(r.width_px, r.height_px, heights(r), PixelFormat::Grey16)));
+  RELIEVO_TRY(add("range_sigma.png", png_of(r.width_px, r.height_px, sigmas(r), PixelFormat::Grey16)));
+  RELIEVO_TRY(add("range_shows.png", png_of(r.width_px, r.height_px, visible(r.shows), PixelFormat::Grey8)));
+  const std::string text = page(images, landmarks, head_from_camera, version);
+  const auto bytes = bytes_of(text);
+  files.push_back({"recognition.json", {bytes.begin(), bytes.end()}});
+  return files;
+}
 
 Result<std::vector<fs::path>> write_model_files(const pipeline::FaceModel& model, const fs::path& dir,
                                                 const ExportOptions& options) {

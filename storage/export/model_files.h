@@ -12,9 +12,7 @@
 // the screen).
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 

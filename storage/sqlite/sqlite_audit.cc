@@ -25,6 +25,16 @@ struct Line {
   std::span<const std::byte> detail;  // as it is stored
 };
 
+// `of` is given every line as it is stored, and its row, whose sixth column is its hash.
+template <typename Of>
+Result<void> each_line(Database& database, const Of& of) {
+  constexpr std::string_view kLines =
+      "SELECT number, at_ms, subject_id, what, detail, hash FROM audit ORDER BY number";
+  return database.each(kLines, [&](const Statement& row) -> Result<void> {
+    return of(Line{row.integer(0), row.integer(1), row.integer(2), row.text(3), row.blob(4)}, row);
+  });
+}
+
 // What audit_end holds, and the next line is chained to. Keyed on its own: nobody without the key can make
 // another line the last.
 KeyedHash end_at(const StoreKeys& keys, std::int64_t number, std::span<const std::byte> hash) {
@@ -66,11 +76,8 @@ struct End {
   KeyedHash hash{};
 };
 
-constexpr std::string_view kLines =
-    "SELECT number, at_ms, subject_id, what, detail, hash FROM audit ORDER BY number";
-
 Error broken(const Database& database) {
-  return database.error(Errc::StoreCorrupt, "the audit log was changed or is damaged");
+  return database.error(Errc::StoreCorrupt, "the audit log was changed or is damaged: restore a copy");
 }
 
 Result<End> read_end(Database& database) {
@@ -83,6 +90,10 @@ Result<End> read_end(Database& database) {
 }
 
 End empty_log(const StoreKeys& keys) { return {0, end_at(keys, 0, {})}; }
+
+KeyedHash next_hash(const StoreKeys& keys, const End& end, const Line& line) {
+  return keyed_hash(keys.chain(), chained(end.hash, line));
+}
 
 // Who is there, each with their enrolments; and from which number on the log tells of them: people and
 // enrolments of before there was a log have no line.
@@ -108,16 +119,14 @@ struct People {
 };
 
 Result<void> compare(Database& database, const People& told) {
-  RELIEVO_TRY_ASSIGN(auto query,
-                     database.prepare("SELECT subject.id, enrolment.id FROM subject LEFT JOIN enrolment ON "
-                                      "subject_id = subject.id WHERE code_hash IS NOT NULL"));
   People there;
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
-    auto& theirs = there.enrolments[query.integer(0)];
-    if (query.integer(1) != 0) theirs.insert(query.integer(1));
-  }
+  RELIEVO_TRY(database.each(
+      "SELECT subject.id, enrolment.id FROM subject LEFT JOIN enrolment ON subject_id = subject.id "
+      "WHERE code_hash IS NOT NULL",
+      [&](const Statement& row) {
+        auto& theirs = there.enrolments[row.integer(0)];
+        if (row.integer(1) != 0) theirs.insert(row.integer(1));
+      }));
   const auto wrong = [](const char* kind, std::int64_t number, Literal what) {
     return Error{Errc::StoreCorrupt, what}.at(kind + std::to_string(number));
   };
@@ -156,7 +165,7 @@ Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
   const auto detail = sealed_detail(keys, end.number + 1, event.detail);
   const Line line{end.number + 1, to_ms(at), number(event.subject), event.what, detail};
-  const KeyedHash hash = keyed_hash(keys.chain(), chained(end.hash, line));
+  const KeyedHash hash = next_hash(keys, end, line);
   RELIEVO_TRY(database.run(
       "INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) VALUES (?, ?, ?, ?, ?, ?)",
       line.number, line.at_ms, line.what, line.subject, detail, hash));
@@ -177,7 +186,7 @@ Result<bool> ended_so(Database& database, const StoreKeys& keys, std::int64_t nu
 }
 
 Result<void> check_audit(Database& database, const StoreKeys& keys) {
-  // Log and people of one instant: a kiosk may be enrolling somebody.
+  // Log, people and recovery of one instant: a kiosk may be changing them.
   struct Instant {
     Database& database;
     ~Instant() {
@@ -186,40 +195,35 @@ Result<void> check_audit(Database& database, const StoreKeys& keys) {
   } instant{database};
   if (!database.in_transaction()) RELIEVO_TRY(database.run("BEGIN"));
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
   End reached = empty_log(keys);
   People told;
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
-    const Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), query.blob(4)};
-    if (line.number != reached.number + 1) return broken(database);
-    const KeyedHash hash = keyed_hash(keys.chain(), chained(reached.hash, line));
-    if (!std::ranges::equal(query.blob(5), hash)) return broken(database);
+  RELIEVO_TRY(each_line(database, [&](const Line& line, const Statement& row) -> Result<void> {
+    const KeyedHash hash = next_hash(keys, reached, line);
+    if (line.number != reached.number + 1 || !std::ranges::equal(row.blob(5), hash)) return broken(database);
     reached = {line.number, end_at(keys, line.number, hash)};
     RELIEVO_TRY_ASSIGN(const std::string detail, open_detail(keys, line.number, line.detail));
     told.read(line, detail);
-  }
+    return {};
+  }));
   if (reached.number != end.number || reached.hash != end.hash) return broken(database);
-  return compare(database, told);
+  RELIEVO_TRY(compare(database, told));
+  return keys.check_recovery(database);
 }
 
 Result<void> key_audit_end(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
   End old, made = empty_log(keys);
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
-    const Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), query.blob(4)};
-    const KeyedHash before = keyed_hash(keys.chain(), chained(old.hash, line));
-    if (line.number != old.number + 1 || !std::ranges::equal(query.blob(5), before)) return {};
+  bool whole = true;
+  RELIEVO_TRY(each_line(database, [&](const Line& line, const Statement& row) -> Result<void> {
+    const KeyedHash before = next_hash(keys, old, line);
+    whole = whole && line.number == old.number + 1 && std::ranges::equal(row.blob(5), before);
+    if (!whole) return {};
     old = {line.number, before};
-    const KeyedHash hash = keyed_hash(keys.chain(), chained(made.hash, line));
+    const KeyedHash hash = next_hash(keys, made, line);
     made = {line.number, end_at(keys, line.number, hash)};
-    RELIEVO_TRY(database.run("UPDATE audit SET hash = ? WHERE number = ?", hash, line.number));
-  }
-  if (old.number != end.number || old.hash != end.hash) return {};
+    return database.run("UPDATE audit SET hash = ? WHERE number = ?", hash, line.number);
+  }));
+  if (!whole || old.number != end.number || old.hash != end.hash) return {};
   // An empty log needs no key: whoever has emptied theirs could say that their store is of version 8.
   RELIEVO_TRY_ASSIGN(
       const std::int64_t others,
@@ -230,24 +234,21 @@ Result<void> key_audit_end(Database& database, const StoreKeys& keys) {
 
 Result<void> seal_audit(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
   End old, made = empty_log(keys);
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
-    Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), bytes_of(query.text(4))};
+  RELIEVO_TRY(each_line(database, [&](Line line, const Statement& row) {
+    line.detail = bytes_of(row.text(4));
     old.hash = sha256(chained(old.hash, line));
-    const bool whole = line.number == old.number + 1 && std::ranges::equal(query.blob(5), old.hash);
-    const auto detail = sealed_detail(keys, line.number, query.text(4));
+    const bool whole = line.number == old.number + 1 && std::ranges::equal(row.blob(5), old.hash);
+    const auto detail = sealed_detail(keys, line.number, row.text(4));
     line.detail = detail;
-    const KeyedHash hash = keyed_hash(keys.chain(), chained(made.hash, line));
+    const KeyedHash hash = next_hash(keys, made, line);
     made = {line.number, end_at(keys, line.number, hash)};
-    const auto kept = whole ? std::span<const std::byte>(hash) : query.blob(5);
-    if (query.blob(5).size() == old.hash.size()) std::ranges::copy(query.blob(5), old.hash.begin());
+    const auto kept = whole ? std::span<const std::byte>(hash) : row.blob(5);
+    if (row.blob(5).size() == old.hash.size()) std::ranges::copy(row.blob(5), old.hash.begin());
     old.number = line.number;
-    RELIEVO_TRY(database.run("UPDATE audit SET sealed_detail = ?, detail = '', hash = ? WHERE number = ?",
-                             detail, kept, line.number));
-  }
+    return database.run("UPDATE audit SET sealed_detail = ?, detail = '', hash = ? WHERE number = ?", detail,
+                        kept, line.number);
+  }));
   if (old.number != end.number || old.hash != end.hash) return {};
   return database.run("UPDATE audit_end SET hash = ?", made.hash);
 }
@@ -258,29 +259,31 @@ Result<void> SqliteStore::append_line(const AuditEvent& event, WallTime at) {
 }
 
 Result<void> SqliteStore::append_audit(const AuditEvent& event) {
-  constexpr std::string_view kOwn[] = {kSettingChanged, kSubjectAdded, kSubjectErased, kEnrolmentAdded,
-                                       kEnrolmentRenewed};
+  constexpr std::string_view kOwn[] = {kSettingChanged,   kSubjectAdded,      kSubjectErased, kEnrolmentAdded,
+                                       kEnrolmentRenewed, kRecoveryWordsMade, kRekeyed};
   if (std::ranges::find(kOwn, event.what) != std::end(kOwn))
     return Error{Errc::InvalidInput, "only the store itself writes this line of the audit log"}.at(
         event.what);
-  return change([&](WallTime at) { return append_line(event, at); });
+  // What is exported from a full disk makes room there, and may not fail for its line.
+  const Result<void> done = change_in_reserve([&](WallTime at) { return append_line(event, at); });
+  if (done) set_aside_reserve(home_, reserve_bytes_);
+  return done;
 }
 
 Result<std::vector<AuditRecord>> SqliteStore::audit(std::int64_t after_number, std::int64_t limit) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<AuditRecord>> {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT number, at_ms, what, subject_id, detail FROM audit "
-                                          "WHERE number > ? ORDER BY number LIMIT ?",
-                                          after_number, limit));
     std::vector<AuditRecord> records;
-    for (;;) {
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
-      if (!row) return records;
-      RELIEVO_TRY_ASSIGN(auto detail, open_detail(*keys_, query.integer(0), query.blob(4)));
-      records.push_back({query.integer(0),
-                         from_ms(query.integer(1)),
-                         {std::string(query.text(2)), SubjectId{query.integer(3)}, std::move(detail)}});
-    }
+    const auto read = [&](const Statement& row) -> Result<void> {
+      RELIEVO_TRY_ASSIGN(auto detail, open_detail(*keys_, row.integer(0), row.blob(4)));
+      records.push_back({row.integer(0),
+                         from_ms(row.integer(1)),
+                         {std::string(row.text(2)), SubjectId{row.integer(3)}, std::move(detail)}});
+      return {};
+    };
+    RELIEVO_TRY(database_->each(
+        "SELECT number, at_ms, what, subject_id, detail FROM audit WHERE number > ? ORDER BY number LIMIT ?",
+        read, after_number, limit));
+    return records;
   });
 }
 
@@ -290,10 +293,11 @@ Result<std::int64_t> last_setting_line(Database& database) {
 
 Result<Settings> read_settings(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const std::int64_t last, last_setting_line(database));
-  RELIEVO_TRY_ASSIGN(const auto row, database.row("SELECT line, record FROM settings"));
+  RELIEVO_TRY_ASSIGN(const auto row,
+                     database.row("SELECT line, record, (SELECT count(*) FROM settings) FROM settings"));
   Settings settings;
   if (!row && last == 0) return settings;
-  if (!row || row->integer(0) != last)
+  if (!row || row->integer(0) != last || row->integer(2) != 1)
     return Error{Errc::StoreCorrupt,
                  "the settings are older than their last change: they were put back, or lost; restore a copy"}
         .at("settings, record");

@@ -6,17 +6,8 @@
 #include "storage/byte_order.h"
 #include "storage/calibration_record.h"
 #include "storage/sqlite/sqlite_parts.h"
-#include "storage/text.h"
 
 namespace relievo::storage {
-
-Result<void> SqliteStore::make_active(std::uint32_t revision) {
-  RELIEVO_TRY(database_->run("UPDATE calibration SET active = 0 WHERE active = 1"));
-  RELIEVO_TRY(database_->run("UPDATE calibration SET active = 1 WHERE revision = ?", revision));
-  if (database_->changes() != 1) return not_found("there is no calibration of this revision", revision);
-  return {};
-}
-
 namespace {
 
 Result<void> check_entry(const pipeline::StereoCalibration& calibration, std::string_view note) {
@@ -25,7 +16,23 @@ Result<void> check_entry(const pipeline::StereoCalibration& calibration, std::st
   return check_calibration(calibration);
 }
 
+// The record says itself which revision it is: a swapped one is noticed.
+Result<pipeline::StereoCalibration> record_in(const Statement& row) {
+  RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(row.blob(1)));
+  if (stored.calibration.revision != row.integer(0)) {
+    return Error{Errc::StoreCorrupt, "a stored calibration stands in the place of another"};
+  }
+  return stored.calibration;
+}
+
 }  // namespace
+
+Result<void> SqliteStore::make_active(std::uint32_t revision) {
+  RELIEVO_TRY(database_->run("UPDATE calibration SET active = 0 WHERE active = 1"));
+  RELIEVO_TRY(database_->run("UPDATE calibration SET active = 1 WHERE revision = ?", revision));
+  if (database_->changes() != 1) return not_found("there is no calibration of this revision", revision);
+  return {};
+}
 
 Result<std::uint32_t> SqliteStore::insert_calibration(const pipeline::StereoCalibration& calibration,
                                                       std::string_view note,
@@ -87,22 +94,15 @@ Result<std::uint32_t> SqliteStore::revision_for(std::span<const std::byte> calib
 
 Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<CalibrationInfo>> {
-    RELIEVO_TRY_ASSIGN(
-        auto query,
-        database_->prepare("SELECT revision, created_at_ms, note, active, record, (SELECT count(*) "
-                           "FROM enrolment WHERE calibration_revision = revision) "
-                           "FROM calibration ORDER BY revision DESC"));
     std::vector<CalibrationInfo> found;
-    for (;;) {
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
-      if (!row) return found;
-      RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(query.blob(4)));
+    const auto read = [&](const Statement& row) -> Result<void> {
+      RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(row.blob(4)));
       RELIEVO_TRY_ASSIGN(const auto note,
-                         unseal(keys_->device(), calibration_note(query.integer(0)), query.blob(2)));
+                         unseal(keys_->device(), calibration_note(row.integer(0)), row.blob(2)));
       const pipeline::StereoCalibration& calibration = stored.calibration;
       const pipeline::Vec3d& t = calibration.right_from_left.translation_mm;
-      found.push_back({.revision = std::uint32_t(query.integer(0)),
-                       .created_at = from_ms(query.integer(1)),
+      found.push_back({.revision = std::uint32_t(row.integer(0)),
+                       .created_at = from_ms(row.integer(1)),
                        .note = std::string(text_of(note)),
                        .rms_px = calibration.rms_px,
                        .epipolar_shift_px = calibration.epipolar_shift_px,
@@ -110,24 +110,18 @@ Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
                        .figures = stored.figures,
                        .width_px = calibration.left.width_px,
                        .height_px = calibration.left.height_px,
-                       .enrolments = int(query.integer(5)),
-                       .active = query.integer(3) != 0});
-    }
+                       .enrolments = int(row.integer(5)),
+                       .active = row.integer(3) != 0});
+      return {};
+    };
+    RELIEVO_TRY(
+        database_->each("SELECT revision, created_at_ms, note, active, record, (SELECT count(*) "
+                        "FROM enrolment WHERE calibration_revision = revision) "
+                        "FROM calibration ORDER BY revision DESC",
+                        read));
+    return found;
   });
 }
-
-namespace {
-
-// The record says itself which revision it is: a swapped one is noticed.
-Result<pipeline::StereoCalibration> record_in(const Statement& query) {
-  RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(query.blob(1)));
-  if (stored.calibration.revision != query.integer(0)) {
-    return Error{Errc::StoreCorrupt, "a stored calibration stands in the place of another"};
-  }
-  return stored.calibration;
-}
-
-}  // namespace
 
 Result<pipeline::StereoCalibration> SqliteStore::calibration(std::uint32_t revision) {
   return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {

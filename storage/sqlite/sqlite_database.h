@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "hal/base/result.h"
@@ -73,8 +74,7 @@ class Database {
  public:
   explicit Database(std::filesystem::path file) : file_(std::move(file)), where_(file_.string()) {}
   ~Database();
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
+  Database& operator=(Database&&) = delete;
 
   // Opens without changing a byte of it; a missing file is made only if `writable`.
   Result<void> open(bool writable);
@@ -99,6 +99,17 @@ class Database {
     RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, values...));
     RELIEVO_TRY_ASSIGN(const bool there, statement.step());
     return there ? std::optional(std::move(statement)) : std::nullopt;
+  }
+  // `of` is given every row; an error of it is the last one's.
+  template <typename Of, typename... Values>
+  Result<void> each(std::string_view sql, const Of& of, const Values&... values) {
+    RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, values...));
+    for (;;) {
+      RELIEVO_TRY_ASSIGN(const bool there, statement.step());
+      if (!there) return {};
+      if constexpr (std::is_void_v<decltype(of(std::as_const(statement)))>) of(std::as_const(statement));
+      else RELIEVO_TRY(of(std::as_const(statement)));
+    }
   }
   // The first column of the first row; 0 if there is none.
   template <typename... Values>
@@ -163,8 +174,7 @@ class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) {}
   ~Transaction();
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
+  Transaction& operator=(Transaction&&) = delete;
 
   Result<void> begin();
   Result<void> commit();

@@ -210,13 +210,9 @@ struct Document::Inside {
   // Those of the parts that hold the text of a file.
   Result<std::vector<std::string>> text_parts() {
     std::vector<std::string> names;
-    RELIEVO_TRY_ASSIGN(auto find,
-                       database.prepare("SELECT name FROM part WHERE name GLOB 'text *' ORDER BY name"));
-    while (true) {
-      RELIEVO_TRY_ASSIGN(const bool there, find.step());
-      if (!there) return names;
-      names.emplace_back(find.text(0));
-    }
+    RELIEVO_TRY(database.each("SELECT name FROM part WHERE name GLOB 'text *' ORDER BY name",
+                              [&](const Statement& row) { names.emplace_back(row.text(0)); }));
+    return names;
   }
   // With the one error a reader of bytes can have.
   template <typename Read>

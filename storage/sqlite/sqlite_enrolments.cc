@@ -10,10 +10,11 @@ namespace {
 
 constexpr std::string_view kEnrolments =
     "SELECT enrolment.id, subject_id, enrolment.created_at_ms, ifnull(calibration_revision, 0), "
-    "enrolment.record, consent.record, length(bytes) "
+    "enrolment.record, consent.record, length(bytes), "
+    "consent.enrolment_id IS NOT NULL AND model.enrolment_id IS NOT NULL "
     "FROM enrolment JOIN subject ON subject.id = subject_id AND code_hash IS NOT NULL "
-    "JOIN consent ON consent.enrolment_id = enrolment.id "
-    "JOIN model ON model.enrolment_id = enrolment.id ";
+    "LEFT JOIN consent ON consent.enrolment_id = enrolment.id "
+    "LEFT JOIN model ON model.enrolment_id = enrolment.id ";
 
 }  // namespace
 
@@ -30,6 +31,7 @@ Result<void> SqliteStore::check_texts(const NewEnrolment& enrolment) {
 Result<Enrolment> SqliteStore::enrolment_in(KeySlots& slots, const Statement& row) {
   Enrolment enrolment;
   enrolment.id = EnrolmentId{row.integer(0)};
+  if (row.integer(7) == 0) return half_enrolment(enrolment.id);
   enrolment.subject = SubjectId{row.integer(1)};
   enrolment.created_at = from_ms(row.integer(2));
   enrolment.calibration_revision = std::uint32_t(row.integer(3));
@@ -82,7 +84,11 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, cons
           return not_found("there is no calibration of this revision", enrolment.calibration_revision);
       }
       RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(choice, at));
-      if (enrolment.renews) RELIEVO_TRY(renew_key(id));
+      if (enrolment.renews) {
+        // What is left in any page of the earlier enrolments must be as unreadable as of somebody erased.
+        RELIEVO_TRY_ASSIGN(const Subject known, subject(id));
+        RELIEVO_TRY(seal_subject(*database_, *keys_, id, known.name, known.receipt));
+      }
       RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at, at));
       if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
       if (owner != nullptr) {
@@ -96,12 +102,6 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, cons
   });
 }
 
-// What is left in any page of the earlier enrolments must be as unreadable as of somebody erased.
-Result<void> SqliteStore::renew_key(SubjectId id) {
-  RELIEVO_TRY_ASSIGN(const Subject known, subject(id));
-  return seal_subject(*database_, *keys_, id, known.name, known.receipt);
-}
-
 Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallTime at) {
   RELIEVO_TRY(
       database_->run("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?", number(subject), number(but)));
@@ -110,17 +110,15 @@ Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallT
 
 Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Enrolment>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) +
-                                                          "WHERE subject_id = ? ORDER BY enrolment.id",
-                                                      number(subject)));
     KeySlots slots(*database_);
     std::vector<Enrolment> found;
-    for (;;) {
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
-      if (!row) return found;
-      RELIEVO_TRY_ASSIGN(auto enrolment, enrolment_in(slots, query));
-      found.push_back(std::move(enrolment));
-    }
+    const auto read = [&](const Statement& row) -> Result<void> {
+      RELIEVO_TRY_ASSIGN(found.emplace_back(), enrolment_in(slots, row));
+      return {};
+    };
+    RELIEVO_TRY(database_->each(std::string(kEnrolments) + "WHERE subject_id = ? ORDER BY enrolment.id", read,
+                                number(subject)));
+    return found;
   });
 }
 

@@ -102,14 +102,12 @@ Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKe
   std::vector<SubjectId> back;
   if (erased.empty()) return back;
   std::ranges::sort(erased);
-  RELIEVO_TRY_ASSIGN(auto people,
-                     database.prepare("SELECT id, code_hash FROM subject WHERE code_hash IS NOT NULL"));
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, people.step());
-    if (!row) return back;
-    if (std::ranges::binary_search(erased, trace_of(keys, people.blob(1))))
-      back.push_back(SubjectId{people.integer(0)});
-  }
+  RELIEVO_TRY(database.each("SELECT id, code_hash FROM main.subject WHERE code_hash IS NOT NULL",
+                            [&](const Statement& row) {
+                              if (std::ranges::binary_search(erased, trace_of(keys, row.blob(1))))
+                                back.push_back(SubjectId{row.integer(0)});
+                            }));
+  return back;
 }
 
 Result<bool> was_erased(Database& database, const StoreKeys& keys, std::int64_t code) {

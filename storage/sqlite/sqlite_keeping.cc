@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // SqliteStore as a whole: copies, and its keys.
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 
-#include "hal/base/whole_file.h"
 #include "storage/calibration_record.h"
 #include "storage/cipher/recovery.h"
 #include "storage/model_blob.h"
@@ -24,7 +20,8 @@ Result<bool> SqliteStore::has_recovery_words() {
 Result<void> SqliteStore::keep_recovery_words(std::string_view words) {
   return change([&](WallTime at) -> Result<void> {
     RELIEVO_TRY(keys_->keep_recovery_words(*database_, words, at));
-    return append_line({"store.recovery_words", {}, ""}, at);
+    RELIEVO_TRY_ASSIGN(auto trace, StoreKeys::recovery_trace(*database_));
+    return append_line({std::string(kRecoveryWordsMade), {}, std::move(trace)}, at);
   });
 }
 
@@ -38,8 +35,13 @@ class SqliteKeeping final : public StoreKeeping {
     return without_exceptions(file.native(), [&]() -> Result<void> {
       RELIEVO_TRY(must_be_a_place_for_a_copy(*store, file));
       // Hidden, as every file is until it is whole.
-      return copy_whole(*store->database_, file,
-                        file.parent_path() / ("." + file.filename().string() + ".part"));
+      const auto copied = copy_whole(*store->database_, file,
+                                     file.parent_path() / ("." + file.filename().string() + ".part"));
+      if (copied || copied.error().code != Errc::MediaFull) return copied;
+      return Error{Errc::MediaFull,
+                   "the disk is full where the copy goes: make room there, or name another place",
+                   copied.error().sys_errno}
+          .at(file.native());
     });
   }
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) override {
@@ -54,17 +56,16 @@ class SqliteKeeping final : public StoreKeeping {
       if (!end || !*end) return another;
       RELIEVO_TRY_ASSIGN(const bool same, goes_on_from(*store, **end));
       if (!same) return another;
-      RELIEVO_TRY_ASSIGN(
-          auto query, store->database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?",
-                                                (*end)->integer(0), kSubjectErased));
       std::vector<SubjectId> erased;
-      for (;;) {
-        RELIEVO_TRY_ASSIGN(const bool row, query.step());
-        if (!row) return erased;
+      const auto look = [&](const Statement& row) -> Result<void> {
         RELIEVO_TRY_ASSIGN(const std::int64_t in_copy,
-                           copy.integer("SELECT 1 FROM subject WHERE id = ?", query.integer(0)));
-        if (in_copy != 0) erased.push_back(SubjectId{query.integer(0)});
-      }
+                           copy.integer("SELECT 1 FROM subject WHERE id = ?", row.integer(0)));
+        if (in_copy != 0) erased.push_back(SubjectId{row.integer(0)});
+        return {};
+      };
+      RELIEVO_TRY(store->database_->each("SELECT subject_id FROM audit WHERE number > ? AND what = ?", look,
+                                         (*end)->integer(0), kSubjectErased));
+      return erased;
     });
   }
   Result<void> rekey(const KeyPlace& to) override {
@@ -74,19 +75,13 @@ class SqliteKeeping final : public StoreKeeping {
       // A key of another store that is written over leaves that store to its recovery words.
       SqliteStoreOptions by_it = options_;
       by_it.mode = OpenMode::ReadOnly;
-      by_it.keys = key_file(to.file, false);
       std::error_code ignored;
       const bool is_new = !std::filesystem::exists(to.file, ignored);
+      by_it.keys = key_file(to.file, false, NextKey::Plain, is_new ? dir_ : to.file);
       if (!is_new && !SqliteStore::open(dir_, clock_, by_it))
         return Error{Errc::InvalidInput, "this file is there, and is not this store's key: name another"}.at(
             to.file.native());
-      RELIEVO_TRY(rekey(*store, *by_it.keys));
-      // Made by root, it is the kiosk's to read.
-      if (const int fd = is_new ? ::open(to.file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : -1; fd >= 0) {
-        give_to_owner_of(dir_, fd);
-        ::close(fd);
-      }
-      return {};
+      return rekey(*store, *by_it.keys);
     }
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
     return rekey(*store, *same);
@@ -150,16 +145,19 @@ class SqliteKeeping final : public StoreKeeping {
         "this is there, and is no copy of this store, or an older version's one: remove it, or name another");
   }
   static Result<void> rekey(SqliteStore& store, KeySource& to) {
+    RELIEVO_TRY(store.keys_->check_recovery(*store.database_));
     RELIEVO_TRY(remove_old_copies(store.database_->file()));
     const auto changed = store.change([&](WallTime at) -> Result<void> {
       RELIEVO_TRY(store.keys_->rekey(*store.database_, to, at));
-      return store.append_line({"store.rekeyed", {}, ""}, at);
+      RELIEVO_TRY_ASSIGN(auto trace, StoreKeys::recovery_trace(*store.database_));
+      return store.append_line({std::string(kRekeyed), {}, std::move(trace)}, at);
     });
     if (!changed) return changed;
     RELIEVO_TRY(StoreKeys::finish_change(to));
     return empty_the_log(*store.database_);
   }
-  // A new key takes the place of --key's. One that nobody can read (a dead TPM's) is no loss.
+  // A new key takes the place of --key's. One that nobody can read (a dead TPM's) is no loss; what is no key
+  // its source keeps.
   Result<void> must_not_be_anothers(Database& store) {
     RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
     if (!options_.keys->read(key)) return {};
@@ -208,51 +206,45 @@ Result<void> SqliteStore::check_pages() {
   if (!pages || pages->text(0) != "ok") {
     return database_->error(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
   }
-  constexpr Literal kHalf = "a record of the store has lost a part of it: restore a copy";
   RELIEVO_TRY_ASSIGN(const auto orphan, database_->row("PRAGMA foreign_key_check"));
   if (orphan)
-    return Error{Errc::StoreCorrupt, kHalf}.at(std::string(orphan->text(0)) + " " +
-                                               std::to_string(orphan->integer(1)));
+    return half_enrolment({}).at(std::string(orphan->text(0)) + " " + std::to_string(orphan->integer(1)));
   RELIEVO_TRY_ASSIGN(
       const std::int64_t half,
       database_->integer(
           "SELECT id FROM enrolment WHERE NOT EXISTS (SELECT 1 FROM model WHERE enrolment_id = "
           "enrolment.id) OR NOT EXISTS (SELECT 1 FROM consent WHERE enrolment_id = enrolment.id) LIMIT 1"));
-  if (half != 0) return Error{Errc::StoreCorrupt, kHalf}.at("enrolment " + std::to_string(half));
+  if (half != 0) return half_enrolment(EnrolmentId{half});
   return {};
 }
 
 Result<void> SqliteStore::check_calibrations() {
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision FROM calibration"));
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
-    const auto named = [&](const Error& error) {
-      return error.at("calibration " + std::to_string(query.integer(0)));
-    };
-    const auto read = calibration(std::uint32_t(query.integer(0)));
-    if (!read) return named(read.error());
-    if (const auto sound = check_calibration(*read); !sound) return named(sound.error());
-  }
+  RELIEVO_TRY(database_->each("SELECT revision FROM calibration", [&](const Statement& row) -> Result<void> {
+    const auto read = calibration(std::uint32_t(row.integer(0)));
+    const auto sound = read ? check_calibration(*read) : read.error();
+    if (!sound) return sound.error().at("calibration " + std::to_string(row.integer(0)));
+    return {};
+  }));
   RELIEVO_TRY(calibrations());  // their notes
   return {};
 }
 
 Result<void> SqliteStore::check_subjects() {
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id, created_at_ms, name, code, name_hash, "
-                                                    "code_hash FROM subject WHERE code_hash IS NOT NULL"));
   KeySlots slots(*database_);
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
+  const auto check_one = [&](const Statement& row) -> Result<void> {
     RELIEVO_TRY(database_->go_on());
-    RELIEVO_TRY_ASSIGN(const auto subject, subject_in(slots, query));
-    RELIEVO_TRY_ASSIGN(const auto code, open_code(*keys_, subject.id, query.blob(3)));
-    if (!std::ranges::equal(query.blob(4), keys_->name_hash(subject.name)) ||
-        !std::ranges::equal(query.blob(5), keys_->code_hash(code)))
-      return Error{Errc::StoreCorrupt, "this person would not be found by name or code: restore a copy"}.at(
-          "subject " + std::to_string(query.integer(0)) + ", name_hash or code_hash");
-  }
+    RELIEVO_TRY_ASSIGN(const auto subject, subject_in(slots, row));
+    RELIEVO_TRY_ASSIGN(const auto code, open_code(*keys_, subject.id, row.blob(3)));
+    if (std::ranges::equal(row.blob(4), keys_->name_hash(subject.name)) &&
+        std::ranges::equal(row.blob(5), keys_->code_hash(code)))
+      return {};
+    return Error{Errc::StoreCorrupt, "this person would not be found by name or code: restore a copy"}.at(
+        "subject " + std::to_string(row.integer(0)) + ", name_hash or code_hash");
+  };
+  RELIEVO_TRY(
+      database_->each("SELECT id, created_at_ms, name, code, name_hash, code_hash FROM subject "
+                      "WHERE code_hash IS NOT NULL",
+                      check_one));
   RELIEVO_TRY_ASSIGN(
       const std::int64_t back,
       database_->integer("SELECT subject.id FROM subject JOIN audit ON subject_id = subject.id AND "
@@ -261,7 +253,7 @@ Result<void> SqliteStore::check_subjects() {
   if (!again.empty())
     return Error{
         Errc::StoreCorrupt,
-        "this person was erased after this copy of the store was made: open it to write, and they are again"}
+        "this person was erased after this copy of the store was made: start the kiosk on it once, and they are again"}
         .at("subject " + std::to_string(number(again.front())));
   RELIEVO_TRY_ASSIGN(
       const std::int64_t lost,
@@ -283,20 +275,18 @@ Result<void> SqliteStore::check_subjects() {
 }
 
 Result<void> SqliteStore::check_models() {
-  RELIEVO_TRY_ASSIGN(auto query,
-                     database_->prepare("SELECT enrolment.id FROM enrolment JOIN subject ON subject.id "
-                                        "= subject_id WHERE code_hash IS NOT NULL"));
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) return {};
+  const auto check_one = [&](const Statement& row) -> Result<void> {
     RELIEVO_TRY(database_->go_on());
-    const EnrolmentId id{query.integer(0)};
+    const EnrolmentId id{row.integer(0)};
     RELIEVO_TRY(enrolment(id));  // its texts, its consent
     RELIEVO_TRY_ASSIGN(const auto bytes, model_bytes(id));
-    if (const auto model = decode_model(bytes, std::pmr::new_delete_resource()); !model) {
-      return model.error().at("enrolment " + std::to_string(number(id)));
-    }
-  }
+    const auto model = decode_model(bytes, std::pmr::new_delete_resource());
+    return model ? Result<void>() : model.error().at("enrolment " + std::to_string(number(id)));
+  };
+  return database_->each(
+      "SELECT enrolment.id FROM enrolment JOIN subject ON subject.id = subject_id "
+      "WHERE code_hash IS NOT NULL",
+      check_one);
 }
 
 }  // namespace relievo::storage

@@ -3,10 +3,10 @@
 #include "storage/sqlite/sqlite_keys.h"
 
 #include <algorithm>
-#include <string>
 
 #include "storage/byte_order.h"
 #include "storage/cipher/recovery.h"
+#include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_parts.h"
 #include "storage/text.h"
 
@@ -167,17 +167,14 @@ Result<void> StoreKeys::rekey(Database& database, KeySource& to, WallTime at) {
     RELIEVO_TRY(put_key(database, kRecoveryHalf, seal(store_, place_of(kRecoveryHalf), half), at));
     RELIEVO_TRY(put_key(database, kRecovery, seal_for(recipient, store_), at));
   }
-  RELIEVO_TRY_ASSIGN(auto people,
-                     database.prepare("SELECT id FROM subject WHERE code_hash IS NOT NULL ORDER BY id"));
   KeySlots slots(database, true);
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, people.step());
-    if (!row) return {};
-    const SubjectId id{people.integer(0)};
+  const auto wrap_anew = [&](const Statement& row) -> Result<void> {
+    const SubjectId id{row.integer(0)};
     RELIEVO_TRY_ASSIGN(const auto wrapped, slots.read(id));
     RELIEVO_TRY(unwrap(old, slot_of(id), wrapped, subject_));
-    RELIEVO_TRY(slots.write(id, seal(store_, slot_of(id), subject_.bytes())));
-  }
+    return slots.write(id, seal(store_, slot_of(id), subject_.bytes()));
+  };
+  return database.each("SELECT id FROM subject WHERE code_hash IS NOT NULL ORDER BY id", wrap_anew);
 }
 
 Result<void> StoreKeys::keep_recovery_words(Database& database, std::string_view words, WallTime at) {
@@ -186,6 +183,36 @@ Result<void> StoreKeys::keep_recovery_words(Database& database, std::string_view
   // Sealed: nobody without the store's key puts their own half here, to be given the next store key.
   RELIEVO_TRY(put_key(database, kRecoveryHalf, seal(store_, place_of(kRecoveryHalf), half), at));
   return put_key(database, kRecovery, seal_for(half, store_), at);
+}
+
+Result<std::string> StoreKeys::recovery_trace(Database& database) {
+  std::vector<std::byte> half, wrapped;
+  RELIEVO_TRY(find_key(database, kRecoveryHalf, half));
+  RELIEVO_TRY(find_key(database, kRecovery, wrapped));
+  if (half.empty() || wrapped.empty()) return std::string();
+  half.insert(half.end(), wrapped.begin(), wrapped.end());
+  return hex_of(sha256(half));
+}
+
+Result<void> StoreKeys::check_recovery(Database& database) const {
+  const Error dead =
+      database.error(Errc::StoreCorrupt,
+                     "the recovery words no longer open this store: make new ones (store recovery-words)");
+  RELIEVO_TRY_ASSIGN(const std::string trace, recovery_trace(database));
+  RELIEVO_TRY_ASSIGN(const std::int64_t made,
+                     database.integer("SELECT count(*) FROM audit WHERE what = ?", kRecoveryWordsMade));
+  if (trace.empty()) return made == 0 ? Result<void>() : dead;
+  std::vector<std::byte> half;
+  RELIEVO_TRY(find_key(database, kRecoveryHalf, half));
+  const auto opened = unseal(store_, place_of(kRecoveryHalf), half);
+  if (!opened || opened->size() != sizeof(RecoveryPublic)) return dead;
+  RELIEVO_TRY_ASSIGN(
+      const auto last,
+      database.row("SELECT number, detail FROM audit WHERE what IN (?, ?) ORDER BY number DESC",
+                   kRecoveryWordsMade, kRekeyed));
+  if (!last) return {};
+  RELIEVO_TRY_ASSIGN(const std::string told, open_detail(*this, last->integer(0), last->blob(1)));
+  return told.empty() || told == trace ? Result<void>() : dead;  // earlier versions told nothing
 }
 
 Result<void> StoreKeys::recover(Database& database, std::string_view words, KeySource& to, WallTime at) {

@@ -76,6 +76,11 @@ class StoreKeys {
   Result<void> recover(Database& database, std::string_view words, KeySource& to, WallTime at);
   static Result<void> finish_change(KeySource& to);
   Result<void> keep_recovery_words(Database& database, std::string_view words, WallTime at);
+  // What the audit log keeps of the recovery's rows, whenever they change: a damaged one opens nothing, and
+  // only its words would tell. Empty: there are none.
+  static Result<std::string> recovery_trace(Database& database);
+  // StoreCorrupt: words were made, and what they open is gone, damaged, or another's.
+  Result<void> check_recovery(Database& database) const;
 
   // The key of one subject at a time: drawn and wrapped for its slot, or unwrapped again.
   Result<void> draw_subject_key(Database& database, SubjectId id);

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <map>
 #include <string>
-#include <system_error>
 
 #include "hal/base/whole_file.h"
 #include "storage/schema/embedded_sql.h"
@@ -54,7 +53,8 @@ Result<void> remove_copies(const std::filesystem::path& database_file, std::int6
   for (std::int64_t version = 2; version <= last; ++version) {
     const auto copy = copy_before(database_file, version);
     // The others: of a copy that a power cut stopped.
-    for (const auto& file : {copy, with_end(copy, ".tmp"), with_end(copy, ".tmp-journal")}) {
+    for (const char* end : {"", ".tmp", ".tmp-journal", ".tmp-wal", ".tmp-shm"}) {
+      const auto file = with_end(copy, end);
       if (::unlink(file.c_str()) == 0) {
         removed = true;
       } else if (errno != ENOENT) {
@@ -77,36 +77,31 @@ Result<void> copy_whole(Database& database, const std::filesystem::path& target,
     return Error{Errc::IoFailed, "the store could not be copied here: check the place", errno}.at(
         target.string());
   };
-  ::unlink(unfinished.c_str());
-  ::unlink(with_end(unfinished, "-journal").c_str());
+  const auto remove_unfinished = [&] {
+    for (const char* beside : {"", "-journal", "-wal", "-shm"})
+      ::unlink(with_end(unfinished, beside).c_str());
+  };
+  remove_unfinished();
   // Made here so that nobody else may read it, not even while it grows.
   const int made = ::open(unfinished.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
   if (made < 0) return failed();
   ::close(made);
-  if (auto copied = database.copy_to(unfinished); !copied) {
-    ::unlink(unfinished.c_str());
-    return copied;
-  }
-  if (::rename(unfinished.c_str(), target.c_str()) != 0) {
-    const Error error = failed();
-    ::unlink(unfinished.c_str());
-    return error;
-  }
-  return sync_directory(target.parent_path());
+  Result<void> done = database.copy_to(unfinished);
+  if (done && ::rename(unfinished.c_str(), target.c_str()) != 0) done = failed();
+  if (done) return sync_directory(target.parent_path());
+  remove_unfinished();
+  return done;
 }
 
 Result<void> check_schema(Database& database) {
   RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
   if (version != store_version()) return {};         // a newer one may have more
   using Parts = std::map<std::string, std::string>;  // the name: all of it
-  const auto parts_of = [](Database& one, Parts& parts) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(auto query, one.prepare("SELECT type || ' ' || name, tbl_name || coalesce(sql, '') "
-                                               "FROM sqlite_schema"));
-    for (;;) {
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
-      if (!row) return {};
-      parts.insert_or_assign(std::string(query.text(0)), std::string(query.text(1)));
-    }
+  const auto parts_of = [](Database& one, Parts& parts) {
+    return one.each("SELECT type || ' ' || name, tbl_name || coalesce(sql, '') FROM sqlite_schema",
+                    [&](const Statement& row) {
+                      parts.insert_or_assign(std::string(row.text(0)), std::string(row.text(1)));
+                    });
   };
   Database made(":memory:");
   RELIEVO_TRY(made.open(true));

@@ -34,7 +34,8 @@ inline WallTime from_ms(std::int64_t ms) { return WallTime(std::chrono::millisec
 // What the store itself goes by: nobody else may write such lines.
 inline constexpr std::string_view kSettingChanged = "setting.changed", kSubjectAdded = "subject.added",
                                   kSubjectErased = "subject.erased", kEnrolmentAdded = "enrolment.added",
-                                  kEnrolmentRenewed = "enrolment.renewed";
+                                  kEnrolmentRenewed = "enrolment.renewed",
+                                  kRecoveryWordsMade = "store.recovery_words", kRekeyed = "store.rekeyed";
 
 // Of a new store, in the caller's transaction.
 Result<void> begin_audit(Database& database, const StoreKeys& keys);
@@ -47,7 +48,7 @@ Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys
 Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed);
 
 // StoreCorrupt: a line was edited, dropped, moved, or the tail was cut; or people or enrolments are there
-// that it does not tell of, or gone without a line.
+// that it does not tell of, or gone without a line; or what the recovery words open is not what it tells of.
 Result<void> check_audit(Database& database, const StoreKeys& keys);
 
 // Whether this was once the end of this log: as audit_end of a copy has it.
@@ -93,6 +94,12 @@ Result<void> open_enrolment(const StoreKeys& keys, Enrolment& enrolment, std::sp
 
 Result<void> seal_consent(Database& database, const StoreKeys& keys, EnrolmentId id, const Consent& consent);
 Result<Consent> open_consent(const StoreKeys& keys, EnrolmentId id, std::span<const std::byte> sealed);
+
+// Of one whose consent or model is gone.
+inline Error half_enrolment(EnrolmentId id) {
+  return Error{Errc::StoreCorrupt, "a record of the store has lost a part of it: restore a copy"}.at(
+      "enrolment " + std::to_string(number(id)));
+}
 
 // Makes the row, or takes the place of the one that is there. `blob` is a model_blob.h.
 Result<void> seal_model(Database& database, StoreKeys& keys, EnrolmentId id, std::span<const std::byte> blob);

@@ -13,6 +13,17 @@ namespace {
 constexpr int kMostPeople = 200;
 constexpr std::size_t kMostBytes = 64'000'000;
 
+constexpr std::size_t kNameStep = 64;
+
+Place name_of(SubjectId id) { return {"subject", "name", number(id)}; }
+Place code_of(SubjectId id) { return {"subject", "code", number(id)}; }
+Place record_of(EnrolmentId id) { return {"enrolment", "record", number(id)}; }
+Place consent_of(EnrolmentId id) { return {"consent", "record", number(id)}; }
+Place model_of(EnrolmentId id) { return {"model", "bytes", number(id)}; }
+
+// Sealed and whole, and yet not what we write: made by nobody we know.
+Error strange() { return {Errc::StoreCorrupt, "a sealed record is not laid out as this version knows it"}; }
+
 Result<std::size_t> seal_plain_model(Database& database, StoreKeys& keys, EnrolmentId id) {
   std::vector<std::byte> plain;
   {
@@ -30,23 +41,22 @@ Result<std::size_t> seal_plain_model(Database& database, StoreKeys& keys, Enrolm
 }
 
 Result<std::size_t> seal_person(Database& database, StoreKeys& keys, SubjectId id) {
-  RELIEVO_TRY_ASSIGN(
-      auto query,
-      database.prepare("SELECT enrolment.id, algorithms, report_json, wording, language, given_at_ms "
-                       "FROM enrolment JOIN consent ON enrolment_id = enrolment.id "
-                       "WHERE subject_id = ? AND enrolment.record IS NULL ORDER BY enrolment.id",
-                       number(id)));
   std::size_t bytes = 0;
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) return bytes;
-    const EnrolmentId enrolment{query.integer(0)};
-    const Consent consent{std::string(query.text(3)), std::string(query.text(4)), from_ms(query.integer(5))};
-    RELIEVO_TRY(seal_enrolment(database, keys, enrolment, query.text(1), query.text(2)));
+  const auto seal_one = [&](const Statement& row) -> Result<void> {
+    const EnrolmentId enrolment{row.integer(0)};
+    const Consent consent{std::string(row.text(3)), std::string(row.text(4)), from_ms(row.integer(5))};
+    RELIEVO_TRY(seal_enrolment(database, keys, enrolment, row.text(1), row.text(2)));
     RELIEVO_TRY(seal_consent(database, keys, enrolment, consent));
     RELIEVO_TRY_ASSIGN(const std::size_t model, seal_plain_model(database, keys, enrolment));
     bytes += model;
-  }
+    return {};
+  };
+  RELIEVO_TRY(
+      database.each("SELECT enrolment.id, algorithms, report_json, wording, language, given_at_ms "
+                    "FROM enrolment JOIN consent ON enrolment_id = enrolment.id "
+                    "WHERE subject_id = ? AND enrolment.record IS NULL ORDER BY enrolment.id",
+                    seal_one, number(id)));
+  return bytes;
 }
 
 // The stream's state opens a model as its key does: it is wiped on every way out.
@@ -63,17 +73,15 @@ Result<bool> seal_some_people(Database& database, StoreKeys& keys) {
   for (int people = 0; people < kMostPeople && bytes < kMostBytes; ++people) {
     SubjectId id{};
     {
-      RELIEVO_TRY_ASSIGN(auto query,
-                         database.prepare("SELECT id, name, receipt FROM subject WHERE code_hash IS "
-                                          "NULL AND key_id IS NULL ORDER BY id LIMIT 1"));
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
+      RELIEVO_TRY_ASSIGN(const auto row, database.row("SELECT id, name, receipt FROM subject WHERE code_hash "
+                                                      "IS NULL AND key_id IS NULL ORDER BY id LIMIT 1"));
       if (!row) {
         RELIEVO_TRY(transaction.commit());
         return false;
       }
-      id = SubjectId{query.integer(0)};
-      const std::string name(text_of(query.blob(1)));
-      RELIEVO_TRY(seal_subject(database, keys, id, name, query.integer(2)));
+      id = SubjectId{row->integer(0)};
+      const std::string name(text_of(row->blob(1)));
+      RELIEVO_TRY(seal_subject(database, keys, id, name, row->integer(2)));
     }
     RELIEVO_TRY_ASSIGN(const std::size_t models, seal_person(database, keys, id));
     bytes += models;
@@ -83,25 +91,19 @@ Result<bool> seal_some_people(Database& database, StoreKeys& keys) {
 }
 
 Result<void> seal_notes(Database& database, const StoreKeys& keys) {
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT revision, note FROM calibration"));
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) return {};
-    const std::int64_t revision = query.integer(0);
-    const auto sealed = seal(keys.device(), calibration_note(revision), bytes_of(query.text(1)));
-    RELIEVO_TRY(database.run("UPDATE calibration SET sealed_note = ?, note = '' WHERE revision = ?", sealed,
-                             revision));
-  }
+  return database.each("SELECT revision, note FROM calibration", [&](const Statement& row) {
+    const std::int64_t revision = row.integer(0);
+    const auto sealed = seal(keys.device(), calibration_note(revision), bytes_of(row.text(1)));
+    return database.run("UPDATE calibration SET sealed_note = ?, note = '' WHERE revision = ?", sealed,
+                        revision);
+  });
 }
 
 Result<void> seal_settings(Database& database, const StoreKeys& keys) {
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT key, value FROM setting"));
   Settings settings;
-  for (;;) {
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) break;
-    settings.insert_or_assign(std::string(query.text(0)), std::string(query.text(1)));
-  }
+  RELIEVO_TRY(database.each("SELECT key, value FROM setting", [&](const Statement& row) {
+    settings.insert_or_assign(std::string(row.text(0)), std::string(row.text(1)));
+  }));
   RELIEVO_TRY_ASSIGN(const std::int64_t line, last_setting_line(database));
   return write_settings(database, keys, settings, line);
 }
@@ -132,21 +134,6 @@ Result<void> remove_plain_traces(Database& database) {
   if (!copied) return copied.error().code == Errc::MediaFull ? Result<void>() : copied;
   return database.run("UPDATE store_info SET plain_traces = 0");
 }
-
-namespace {
-
-constexpr std::size_t kNameStep = 64;
-
-Place name_of(SubjectId id) { return {"subject", "name", number(id)}; }
-Place code_of(SubjectId id) { return {"subject", "code", number(id)}; }
-Place record_of(EnrolmentId id) { return {"enrolment", "record", number(id)}; }
-Place consent_of(EnrolmentId id) { return {"consent", "record", number(id)}; }
-Place model_of(EnrolmentId id) { return {"model", "bytes", number(id)}; }
-
-// Sealed and whole, and yet not what we write: made by nobody we know.
-Error strange() { return {Errc::StoreCorrupt, "a sealed record is not laid out as this version knows it"}; }
-
-}  // namespace
 
 Result<void> seal_subject(Database& database, StoreKeys& keys, SubjectId id, std::string_view name,
                           std::int64_t code) {
@@ -236,14 +223,13 @@ Result<void> seal_model(Database& database, StoreKeys& keys, EnrolmentId id,
 Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, EnrolmentId id) {
   StreamHeader header{};
   {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database.prepare("SELECT nonce FROM model WHERE enrolment_id = ?", number(id)));
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    RELIEVO_TRY_ASSIGN(const auto row,
+                       database.row("SELECT nonce FROM model WHERE enrolment_id = ?", number(id)));
     if (!row)
       return Error{Errc::StoreCorrupt, "a record of the store has lost its model: restore a copy"}.at(
           "enrolment " + std::to_string(number(id)));
     // A header of another length opens nothing; open_piece() says so, and where.
-    if (query.blob(0).size() == header.size()) std::ranges::copy(query.blob(0), header.begin());
+    if (row->blob(0).size() == header.size()) std::ranges::copy(row->blob(0), header.begin());
   }
   RELIEVO_TRY_ASSIGN(auto source, Blob::open(database, "model", "bytes", number(id), false));
   std::vector<std::byte> blob(SealedStream::plain_bytes(source.size()));

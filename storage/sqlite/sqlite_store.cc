@@ -74,6 +74,17 @@ Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
   return {};
 }
 
+// The same, where nothing may be changed: no verb sees them. A view of this connection alone takes the
+// table's name, so that none that reads people can forget it.
+Result<void> hide_erased(Database& database, const StoreKeys& keys) {
+  RELIEVO_TRY_ASSIGN(const auto back, erased_and_back(database, keys));
+  if (back.empty()) return {};
+  RELIEVO_TRY(database.run("CREATE TEMP TABLE back (id INTEGER PRIMARY KEY)"));
+  for (const SubjectId id : back) RELIEVO_TRY(database.run("INSERT INTO back (id) VALUES (?)", number(id)));
+  return database.run(
+      "CREATE TEMP VIEW subject AS SELECT * FROM main.subject WHERE id NOT IN (SELECT id FROM back)");
+}
+
 Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStoreOptions& options) {
   RELIEVO_TRY(must_be_there(database.file()));
   RELIEVO_TRY(database.open(false));
@@ -83,9 +94,10 @@ Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStore
     RELIEVO_TRY(must_take_files(database.file().parent_path()));
   if (!version) return version.error();
   if (*version < store_version()) {
-    return database.error(Errc::InvalidState, "the store is of an older version: open it to write once");
+    return database.error(Errc::InvalidState, "the store is of an older version: start the kiosk on it once");
   }
-  return keys.load(database, true);
+  RELIEVO_TRY(keys.load(database, true));
+  return hide_erased(database, keys);
 }
 
 WallTime time_of(const hal::Clock& clock) {

@@ -113,7 +113,6 @@ class SqliteStore final : public Store {
   Result<void> must_be_new(std::int64_t receipt);
   Result<SubjectId> insert_subject(std::string_view name, std::int64_t receipt, WallTime created,
                                    WallTime at);
-  Result<void> renew_key(SubjectId id);
   Result<void> erase_others(SubjectId subject, EnrolmentId but, WallTime at);
   Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
   Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,

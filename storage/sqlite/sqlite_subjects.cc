@@ -17,6 +17,17 @@ constexpr std::string_view kSubjects =
     "SELECT id, created_at_ms, name, code, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id) "
     "FROM subject WHERE id NOT IN (SELECT id FROM subject WHERE code_hash IS NULL) ";
 
+// Without its number, which is this store's own.
+Result<std::vector<std::byte>> calibration_of(Database& database, std::uint32_t revision) {
+  if (revision == 0) return std::vector<std::byte>();
+  RELIEVO_TRY_ASSIGN(auto query,
+                     database.prepare("SELECT record FROM calibration WHERE revision = ?", revision));
+  RELIEVO_TRY(query.step());
+  RELIEVO_TRY_ASSIGN(auto stored, decode_calibration(query.blob(0)));
+  stored.calibration.revision = 0;
+  return encode_calibration(stored.calibration, stored.figures);
+}
+
 }  // namespace
 
 Result<void> SqliteStore::subject_must_exist(SubjectId id) {
@@ -118,29 +129,24 @@ Result<WallTime> SqliteStore::last_added_at() {
 
 Result<void> SqliteStore::for_each_subject(Opened opened, const Visit& visit) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id, created_at_ms, name FROM subject "
-                                                      "WHERE code_hash IS NOT NULL ORDER BY id DESC"));
     RELIEVO_TRY_ASSIGN(
         auto newest,
         database_->prepare("SELECT id, consent.record FROM enrolment JOIN consent ON enrolment_id = id "
                            "WHERE subject_id = ? ORDER BY id DESC LIMIT 1"));
     KeySlots slots(*database_);
-    for (;;) {
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
-      if (!row) return {};
-      RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
-      if (opened == Opened::Names) {
-        RELIEVO_TRY(visit(subject, nullptr));
-        continue;
-      }
+    const auto open_one = [&](const Statement& row) -> Result<void> {
+      RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, row));
+      if (opened == Opened::Names) return visit(subject, nullptr);
       newest.again();
       RELIEVO_TRY_ASSIGN(const bool agreed, newest.bind(number(subject.id)).step());
       Consent consent;
       if (agreed) {
         RELIEVO_TRY_ASSIGN(consent, open_consent(*keys_, EnrolmentId{newest.integer(0)}, newest.blob(1)));
       }
-      RELIEVO_TRY(visit(subject, agreed ? &consent : nullptr));
-    }
+      return visit(subject, agreed ? &consent : nullptr);
+    };
+    return database_->each(
+        "SELECT id, created_at_ms, name FROM subject WHERE code_hash IS NOT NULL ORDER BY id DESC", open_one);
   });
 }
 
@@ -188,21 +194,6 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
 }
 
 // SqliteStore: people who go from one store to another.
-namespace {
-
-// Without its number, which is this store's own.
-Result<std::vector<std::byte>> calibration_of(Database& database, std::uint32_t revision) {
-  if (revision == 0) return std::vector<std::byte>();
-  RELIEVO_TRY_ASSIGN(auto query,
-                     database.prepare("SELECT record FROM calibration WHERE revision = ?", revision));
-  RELIEVO_TRY(query.step());
-  RELIEVO_TRY_ASSIGN(auto stored, decode_calibration(query.blob(0)));
-  stored.calibration.revision = 0;
-  return encode_calibration(stored.calibration, stored.figures);
-}
-
-}  // namespace
-
 Result<PersonRecord> SqliteStore::person(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<PersonRecord> {
     RELIEVO_TRY_ASSIGN(Subject known, subject(id));

@@ -19,8 +19,7 @@ class StoreLock {
  public:
   StoreLock() = default;
   ~StoreLock();
-  StoreLock(const StoreLock&) = delete;
-  StoreLock& operator=(const StoreLock&) = delete;
+  StoreLock& operator=(StoreLock&&) = delete;
 
   Result<void> take(const std::filesystem::path& file, std::chrono::milliseconds wait);
 

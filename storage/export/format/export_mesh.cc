@@ -3,7 +3,6 @@
 #include "storage/export/format/export_mesh.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/model/vector3.h"
 #include "storage/model_blob.h"

@@ -3,12 +3,10 @@
 #include "storage/export/format/mesh_writers.h"
 
 #include <cmath>
-#include <string>
 
 #include "pipeline/model/seam_split.h"
 #include "pipeline/model/vector3.h"
 #include "storage/byte_order.h"
-#include "storage/export/format/export_mesh.h"
 #include "storage/export/format/number_text.h"
 
 namespace relievo::storage {
@@ -23,29 +21,6 @@ pipeline::Vec3f normal_of(const pipeline::Vec3f& a, const pipeline::Vec3f& b, co
   if (!(length > 0)) return {};  // the format's word for "work it out yourself"
   return {n.x / length, n.y / length, n.z / length};
 }
-
-}  // namespace
-
-std::vector<std::byte> stl_bytes(const ExportMesh& mesh) {
-  const auto& triangles = mesh.model.mesh.triangles;
-  std::vector<std::byte> out;
-  out.reserve(kHeaderBytes + 4 + triangles.size() * kStlFaceBytes);
-  ByteWriter to(out);
-  std::string header =
-      "Relievo face model, binary, millimetres";  // must not begin with "solid": that is the text form
-  header.resize(kHeaderBytes, ' ');
-  to.put(bytes_of(header));
-  to.put(std::uint32_t(triangles.size()));
-  for (const auto& t : triangles) {
-    const auto &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
-    for (const auto& v : {normal_of(a, b, c), a, b, c})
-      for (const float value : {v.x, v.y, v.z}) to.put(value);
-    to.put(std::uint16_t{0});
-  }
-  return out;
-}
-
-namespace {
 
 constexpr std::size_t kVertexBytes = 7 * 4 + 4;
 constexpr std::size_t kPlyFaceBytes = 1 + 3 * 4;
@@ -74,7 +49,37 @@ std::string header(const ExportMesh& mesh) {
   return text + "property list uchar int vertex_indices\nend_header\n";
 }
 
+// What the file is good for and no more: a thousandth of a millimetre, a fiftieth of a texel of the largest
+// atlas.
+constexpr int kPlaceDecimals = 3, kTextureDecimals = 5;
+
+template <typename... Numbers>
+void add_line(std::string& text, const char* word, int decimals, Numbers... values) {
+  text += word;
+  ((text += ' ', append_rounded(text, double(values), decimals)), ...);
+  text += '\n';
+}
+
 }  // namespace
+
+std::vector<std::byte> stl_bytes(const ExportMesh& mesh) {
+  const auto& triangles = mesh.model.mesh.triangles;
+  std::vector<std::byte> out;
+  out.reserve(kHeaderBytes + 4 + triangles.size() * kStlFaceBytes);
+  ByteWriter to(out);
+  std::string header =
+      "Relievo face model, binary, millimetres";  // must not begin with "solid": that is the text form
+  header.resize(kHeaderBytes, ' ');
+  to.put(bytes_of(header));
+  to.put(std::uint32_t(triangles.size()));
+  for (const auto& t : triangles) {
+    const auto &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
+    for (const auto& v : {normal_of(a, b, c), a, b, c})
+      for (const float value : {v.x, v.y, v.z}) to.put(value);
+    to.put(std::uint16_t{0});
+  }
+  return out;
+}
 
 std::vector<std::byte> ply_bytes(const ExportMesh& mesh) {
   const auto& source = mesh.model.mesh;
@@ -98,21 +103,6 @@ std::vector<std::byte> ply_bytes(const ExportMesh& mesh) {
   }
   return out;
 }
-
-namespace {
-
-// What the file is good for and no more: a thousandth of a millimetre, a fiftieth of a texel of the largest
-// atlas.
-constexpr int kPlaceDecimals = 3, kTextureDecimals = 5;
-
-template <typename... Numbers>
-void add_line(std::string& text, const char* word, int decimals, Numbers... values) {
-  text += word;
-  ((text += ' ', append_rounded(text, double(values), decimals)), ...);
-  text += '\n';
-}
-
-}  // namespace
 
 std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
   const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model.mesh, mesh.model.texture.uv);

@@ -44,7 +44,11 @@ Errc refusal(const std::filesystem::path& dir, OpenMode mode = OpenMode::ReadWri
   const test::StillClock clock;
   const auto store = open_sqlite_store(dir, clock, {.mode = mode});
   EXPECT_FALSE(store);
-  return store ? Errc::Cancelled : store.error().code;
+  if (store) return Errc::Cancelled;
+  if (store.error().code == Errc::InvalidState) {
+    EXPECT_NE(store.error().what.view().find("start the kiosk on it once"), std::string_view::npos);
+  }
+  return store.error().code;
 }
 
 TEST(SqliteMigration, SumOfMigrationsIsTheSchema) {

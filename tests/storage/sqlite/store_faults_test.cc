@@ -118,8 +118,9 @@ TEST(StoreFaults, AFullDiskIsSurvived) {
   fill_and_recover(disk.path() / "store", {.reserve_bytes = 900'000});
 }
 
-// Every try of a PIN is counted before it is judged: without room nobody could sign in and make some.
-TEST(StoreFaults, OnADiskThatAnotherProgramFilledTheStaffComeInAndErase) {
+// Every try of a PIN is counted before it is judged, every export is noted before it leaves: without room
+// nobody could sign in and make some.
+TEST(StoreFaults, OnADiskThatAnotherProgramFilledTheStaffComeInExportAndErase) {
   const TinyDisk disk(4'000'000);
   if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
   const auto store = opened(disk.path() / "store", {.reserve_bytes = 900'000});
@@ -132,6 +133,7 @@ TEST(StoreFaults, OnADiskThatAnotherProgramFilledTheStaffComeInAndErase) {
     for (const std::string block(4096, 'x'); junk << block << std::flush;) {
     }
     EXPECT_TRUE(store->set_setting("pin", std::string(40'000, '7'))) << round;
+    EXPECT_TRUE(store->append_audit({"enrolment.exported", {}, std::string(9'000, '1')})) << round;
     EXPECT_TRUE(std::filesystem::exists(disk.path() / "store" / "relievo.reserve")) << round;
   }
   EXPECT_TRUE(store->erase_subject(store->enrolment(*ada)->subject));

@@ -43,6 +43,7 @@ std::string wrong_place(const fs::path& dir) {
   const auto checked = (*store)->check();
   if (checked) return "";
   EXPECT_EQ(checked.error().code, Errc::StoreCorrupt);
+  EXPECT_NE(checked.error().what.view().find("restore a copy"), std::string_view::npos) << "the way on";
   return std::string(checked.error().where());
 }
 
@@ -132,6 +133,33 @@ TEST(StoreTampering, WhatNoMigrationMadeIsNamedAndDoesNotRun) {
   EXPECT_EQ(wrong_place(copy("view", "CREATE VIEW v AS SELECT * FROM subject")), "view v");
   EXPECT_EQ(wrong_place(copy("index", "DROP INDEX subject_of_code")), "index subject_of_code");
   EXPECT_EQ(wrong_place(folder / "good"), "");
+}
+
+// Who shows or exports them is told that something is missing, not that nobody was ever photographed.
+TEST(StoreTampering, ARecordThatHasLostAPartIsNotOneWithoutAPortrait) {
+  const TemporaryFolder folder;
+  fill_with_three(folder / "good");
+  for (const char* table : {"consent", "model"}) {
+    const auto dir = folder / table;
+    fs::copy(folder / "good", dir);
+    Raw(dir / "relievo.db").run(std::string("DELETE FROM ") + table + " WHERE enrolment_id = 3");
+    auto store = opened(dir, kNoReserve);
+    EXPECT_EQ(code_of(store->enrolments(SubjectId{3})), Errc::StoreCorrupt) << table;
+    EXPECT_EQ(code_of(store->enrolment(EnrolmentId{3})), Errc::StoreCorrupt) << table;
+    EXPECT_EQ(code_of(store->person(SubjectId{3})), Errc::StoreCorrupt) << table;
+    EXPECT_EQ(store->enrolments(SubjectId{1})->size(), 1U) << table;
+    store.reset();
+    EXPECT_EQ(wrong_place(dir), "enrolment 3");
+  }
+}
+
+TEST(StoreTampering, SettingsThatStandThereTwiceAreRefused) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store";
+  ASSERT_TRUE(opened(dir, kNoReserve)->set_setting("language", "eo"));
+  Raw(dir / "relievo.db").run("INSERT INTO settings SELECT * FROM settings");
+  EXPECT_EQ(wrong_place(dir), "settings, record");
+  EXPECT_EQ(code_of(opened(dir, kNoReserve)->setting("language")), Errc::StoreCorrupt);
 }
 
 // A list that cannot be read is not an empty one: an older copy would bring everybody back.
