@@ -44,8 +44,6 @@ VisitRequest Ui::request() const {
           visit_.agreed_at(), visit_.quotes_code(), visit_.enrolment_kind()};
 }
 
-bool Ui::take_forgotten() { return std::exchange(forgotten_, false); }
-
 void Ui::feed(const Input& input, const ViewState& view) {
   if (input.kind != Input::Kind::Quit) {
     const bool asked = visit_.overlay == Overlay::StillThere;

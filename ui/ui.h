@@ -42,7 +42,7 @@ class Ui {
   VisitRequest request() const;
   std::optional<StaffRequest> take_staff_request() { return service_.take_request(); }
   // The person has gone since the last call: pictures of them in other hands are to be wiped, too.
-  bool take_forgotten();
+  bool take_forgotten() { return std::exchange(forgotten_, false); }
 
   // What is to be said of the newest frame; `busy`: something is being said. Empty: nothing new. The
   // utterance holds until the next call.

@@ -44,8 +44,7 @@ class Appliance {
   };
   explicit Appliance(Parts parts);
   ~Appliance();
-  Appliance(const Appliance&) = delete;
-  Appliance& operator=(const Appliance&) = delete;
+  Appliance& operator=(Appliance&&) = delete;
 
   // What the next visit is stored as. It is remembered no longer than that visit's session; without one it
   // goes with the next intent.

@@ -228,14 +228,16 @@ void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
 }
 
 void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args) {
-  CLI::App* command =
-      app.add_subcommand("store", "the store as a whole: check, copy, keys; while the kiosk is stopped");
+  CLI::App* command = app.add_subcommand("store", "the store as a whole: check, log, copy, keys");
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, StoreArgs::Verb which) {
     return &add_verb(*command, name, help, args, which, chosen);
   };
   word(*verb("check", "every page, model and line of the log", StoreArgs::Verb::Check), "--backup", args.file,
        "FILE", "a copy of this store: who in it has been erased since?");
+  verb("log",
+       "every line of the audit log: number, time, what, of whom; 'store check' tells whether it is whole",
+       StoreArgs::Verb::Log);
   word(*verb("backup", "a copy, sealed as the store is; the key is not in it", StoreArgs::Verb::Backup),
        "file", args.file, "FILE", "where to")
       ->required();

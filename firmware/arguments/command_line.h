@@ -140,9 +140,10 @@ struct StaffArgs {
   Path store;
 };
 
-// What whoever administers the device does with the store as a whole, the kiosk stopped.
+// What whoever administers the device does with the store as a whole. What changes it waits until the kiosk
+// is stopped.
 struct StoreArgs {
-  enum class Verb { Check, Backup, Rekey, RecoveryWords, Recover } verb = Verb::Check;
+  enum class Verb { Check, Log, Backup, Rekey, RecoveryWords, Recover } verb = Verb::Check;
   Path file;  // check: a copy to compare, may be empty; backup: where to; rekey: the key's new place, may be
               // empty
   bool tpm = false;  // rekey: sealed by the board's

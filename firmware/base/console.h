@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Console: how a command speaks. Results on standard output; progress on standard error, rewritten
-// in place, and only where a terminal is; an error is one line on standard error.
+// in place, and only where a terminal is; an error is one line on standard error. And how it is told to stop.
 // Thread: main.
 #pragma once
 
+#include <atomic>
 #include <string_view>
 
 #include "hal/base/result.h"
@@ -16,12 +17,16 @@ namespace relievo::firmware {
 // /dev/null: else the first file would get its number, and lines be written into it. IoFailed: it cannot.
 Result<void> open_closed_streams();
 
+// Ctrl-C, SIGTERM and SIGHUP set this flag, which every job asks; the command then ends cleanly, with nothing
+// half-written. A second Ctrl-C ends the process at once. Under nohup SIGHUP does nothing. The handlers are
+// installed on first use; one flag per process.
+const std::atomic<bool>& interrupted();
+
 class Console {
  public:
   Console();
   ~Console() { clear_progress(); }
-  Console(const Console&) = delete;
-  Console& operator=(const Console&) = delete;
+  Console& operator=(Console&&) = delete;
 
   void say(std::string_view line);  // results: standard output
   // Asked when the command is done. MediaFull, IoFailed: not every line reached it.

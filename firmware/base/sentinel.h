@@ -22,8 +22,7 @@ class Sentinel {
   // The clock outlives it.
   explicit Sentinel(const hal::Clock& clock, std::function<void()> hangs = end_program);
   ~Sentinel();
-  Sentinel(const Sentinel&) = delete;
-  Sentinel& operator=(const Sentinel&) = delete;
+  Sentinel& operator=(Sentinel&&) = delete;
 
   // From the first on it is waited for.
   void kick() { kicked_.store(clock_.now().time_since_epoch().count(), std::memory_order_relaxed); }

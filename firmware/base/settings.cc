@@ -7,13 +7,13 @@
 
 namespace relievo::firmware {
 
-std::filesystem::path store_folder(const std::filesystem::path& named) {
+Result<std::filesystem::path> store_folder(const std::filesystem::path& named) {
   if (!named.empty()) return named;
   const char* data = std::getenv("XDG_DATA_HOME");
   if (data != nullptr && *data == '/') return std::filesystem::path(data) / "relievo";
   const char* home = std::getenv("HOME");
   if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".local/share/relievo";
-  return "relievo-store";
+  return Error{Errc::InvalidInput, "there is no home to keep the store in: name it (--store DIR)"};
 }
 
 std::string text_of(const ui::Settings& settings) {

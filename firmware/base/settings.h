@@ -16,9 +16,9 @@
 
 namespace relievo::firmware {
 
-// The folder that is named; where none is, $XDG_DATA_HOME/relievo, ~/.local/share/relievo, or relievo-store
-// where there is no home.
-std::filesystem::path store_folder(const std::filesystem::path& named);
+// The folder that is named; where none is, $XDG_DATA_HOME/relievo, or ~/.local/share/relievo. InvalidInput:
+// there is no home either.
+Result<std::filesystem::path> store_folder(const std::filesystem::path& named);
 
 inline constexpr const char* kDeviceSetting = "device";  // the store's key of all of them
 

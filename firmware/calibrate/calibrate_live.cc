@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "firmware/base/budget.h"
-#include "firmware/base/interrupt.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/base/words.h"

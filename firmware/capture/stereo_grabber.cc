@@ -5,13 +5,11 @@
 #include <string.h>
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "hal/raw/develop.h"
-#include "hal/raw/raw_image.h"
 
 namespace relievo::firmware {
 
@@ -98,8 +96,6 @@ Result<void> CameraLink::start(const hal::CaptureMode& mode) {
   gone_.store(false, std::memory_order_relaxed);
   return {};
 }
-
-void CameraLink::stop() { camera_.stop(); }
 
 void CameraLink::restart() {
   if (camera_.state() == Camera::State::Closed) return;

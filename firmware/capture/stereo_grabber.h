@@ -132,7 +132,7 @@ class CameraLink {
   // Opens and starts what is not. What a camera that never ran says, or Disconnected: it is lost and
   // either not due yet or still away.
   Result<void> start(const hal::CaptureMode& mode);
-  void stop();
+  void stop() { camera_.stop(); }
   // Stops and starts the stream; a camera that does not start again counts as lost.
   void restart();
   // The next whole frame exposed at `asked` or later. Timeout, Cancelled, Disconnected (and it is lost),
@@ -200,8 +200,7 @@ class StereoGrabber {
       : StereoGrabber(device.left(), device.right(), device.trigger(), device.clock(),
                       grabber_options(device)) {}
   ~StereoGrabber() { stop(); }
-  StereoGrabber(const StereoGrabber&) = delete;
-  StereoGrabber& operator=(const StereoGrabber&) = delete;
+  StereoGrabber& operator=(StereoGrabber&&) = delete;
 
   // Opens the cameras where they are closed and starts the streams. Both are tried before it fails.
   Result<void> start(const hal::CaptureMode& mode);

@@ -8,7 +8,6 @@
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/checks/deviation_picture.h"
-#include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/pipeline.h"

@@ -11,7 +11,6 @@
 
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/boot_memory.h"
-#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/settings.h"
 #include "firmware/base/version.h"
@@ -152,9 +151,10 @@ Result<void> run(const SelfTestArgs& args, Services& services) {
   if (args.optical) return run_optical_selftest(args, services);
   const BootMemory memory;
   services.console.say("memory       in order: " + mib(memory.all().size()));
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
   RELIEVO_TRY(store->check());
-  services.console.say("store        in order: " + store_folder(args.store).string());
+  services.console.say("store        in order: " + folder.string());
   RELIEVO_TRY_ASSIGN(const auto calibration, store->active_calibration());
   services.console.say("calibration  in order: revision " + std::to_string(calibration.revision));
   RELIEVO_TRY_ASSIGN(const auto pipeline, make_pipeline({}, calibration));
@@ -166,7 +166,7 @@ Result<void> run(const SelfTestArgs& args, Services& services) {
 // `relievo staff`: the way in of whoever administers the device, when the screen offers none. The store lets
 // nobody else in while a kiosk has it.
 Result<void> run(const StaffArgs& args, Services& services) {
-  const Path folder = store_folder(args.store);
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
   if (args.verb == StaffArgs::Verb::PlainTouch) {
     RELIEVO_TRY(store->set_setting(kTouchSetting, ui::text_of(ui::TouchMap{})));

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/settings.h"
 #include "firmware/base/wall_time.h"
@@ -26,7 +25,8 @@ namespace relievo::firmware {
 namespace {
 
 Result<void> list(const CalibrationArgs& args, Services& services) {
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
   RELIEVO_TRY_ASSIGN(const auto all, store->calibrations());
   if (all.empty()) services.console.say("no calibration is in the store: 'relievo calibrate' makes one");
   else services.console.say(history_heading());
@@ -37,7 +37,8 @@ Result<void> list(const CalibrationArgs& args, Services& services) {
 }
 
 Result<void> activate(const CalibrationArgs& args, Services& services) {
-  RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(store_folder(args.store), services));
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
+  RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
   RELIEVO_TRY(store->activate_calibration(std::uint32_t(args.revision)));
   services.console.say("revision " + std::to_string(args.revision) + ", in use from now on");
   return {};
@@ -48,7 +49,8 @@ Result<void> import_one(const CalibrationArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(
       const auto calibration,
       pipeline::read_calibration(args.file, {args.width_px, args.height_px, args.unit_mm}, args.other));
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, true));
   const std::string note = args.note.empty() ? "imported from " + args.file.filename().string() : args.note;
   RELIEVO_TRY_ASSIGN(const auto revision, store->save_calibration(calibration, note));
   // Echoed, so that whoever imported it sees what the appliance will measure with.
@@ -59,7 +61,8 @@ Result<void> import_one(const CalibrationArgs& args, Services& services) {
 
 Result<pipeline::StereoCalibration> chosen(const CalibrationArgs& args, Services& services) {
   if (!args.source.empty()) return pipeline::read_calibration(args.source);
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
   if (args.revision == 0) return store->active_calibration();
   return store->calibration(std::uint32_t(args.revision));
 }

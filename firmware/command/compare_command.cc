@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cstdio>
 
-#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"

@@ -6,13 +6,13 @@
 
 #include "firmware/appliance/appliance.h"
 #include "firmware/arguments/algorithm_choice.h"
-#include "firmware/base/interrupt.h"
 #include "firmware/base/settings.h"
 #include "firmware/command/commands.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/kiosk/stored_visits.h"
 #include "firmware/report/report.h"
 #include "firmware/work/pipeline_stages.h"
+#include "pipeline/algorithms.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
@@ -29,7 +29,8 @@ struct Calibrated {
 };
 
 // Looked for before anything is made: without one no store appears.
-Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMode& mode, Services& services) {
+Result<Calibrated> find_calibration(const EnrolArgs& args, const Path& folder, const hal::CaptureMode& mode,
+                                    Services& services) {
   Calibrated found;
   if (!args.calibration.empty()) {
     RELIEVO_TRY_ASSIGN(found.calibration,
@@ -38,7 +39,6 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
     found.note = args.calibration.filename().string();
     return found;
   }
-  const Path folder = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(const auto kept, known_calibration(folder, services));
   if (kept) {
     found.calibration = *kept;
@@ -126,17 +126,20 @@ Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated,
 
 Result<void> run(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY(check_subject(args.subject));
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet chosen, choose_algorithms(args.algorithms));
+  RELIEVO_TRY(pipeline::make_algorithms(chosen));  // what cannot be is said before a camera is opened
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   RELIEVO_TRY_ASSIGN(const auto device, services.open_device(args.device));
   const hal::CaptureMode mode = device->preferred_mode();
-  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, mode, services));
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, folder, mode, services));
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, true));
   RELIEVO_TRY_ASSIGN(const std::optional<storage::SubjectId> subject, choose_subject(*store, args.subject));
 
   const BootMemory memory(budget::plan_of_a_face(mode.pixels()));
   ThreadPool pool(pool_size());
   PipelineStages stages(std::move(pipeline));
-  EnrolledVisits visits(*store, device->clock(), store_folder(args.store), calibrated);
+  EnrolledVisits visits(*store, device->clock(), folder, calibrated);
   Appliance appliance({*device, stages, memory, pool, visits});
   appliance.grabber().expect(calibrated.calibration.cameras);
   VisitRecord record;

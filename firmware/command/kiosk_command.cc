@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "firmware/base/budget.h"
-#include "firmware/base/interrupt.h"
 #include "firmware/base/process_memory.h"
 #include "firmware/base/sentinel.h"
 #include "firmware/command/commands.h"

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// `relievo store`: the store as a whole. It lets nobody else in while a kiosk has it.
+// `relievo store`: the store as a whole. What changes it is refused while a kiosk has it.
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <string_view>
 
-#include "firmware/base/interrupt.h"
 #include "firmware/base/settings.h"
+#include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
 #include "hal/base/wiped_text.h"
+#include "hal/base/words.h"
 #include "storage/cipher/recovery.h"
 
 namespace relievo::firmware {
@@ -29,6 +31,23 @@ Result<void> check(const StoreArgs& args, const Path& folder, Services& services
                          " has been erased since this copy was made: make a new copy and destroy it");
   if (erased.empty()) services.console.say("nobody in this copy has been erased since");
   return {};
+}
+
+// What the store has written down of itself, the oldest first.
+Result<void> say_log(const Path& folder, Services& services) {
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
+  constexpr std::int64_t kPage = 1000;
+  for (std::int64_t last = 0;;) {
+    RELIEVO_TRY_ASSIGN(const auto page, store->audit(last, kPage));
+    for (const auto& [number, at, event] : page) {
+      const auto subject = std::int64_t(event.subject);
+      services.console.say(std::to_string(number) + "  " + text_of(at) + "  " + shown_name(event.what) +
+                           (subject == 0 ? "" : "  #" + std::to_string(subject)) +
+                           (event.detail.empty() ? "" : "  " + shown_name(event.detail)));
+    }
+    if (std::int64_t(page.size()) < kPage) return {};
+    last = page.back().number;
+  }
 }
 
 // Printed once; they hold when whoever wrote them down has typed two of them.
@@ -53,10 +72,23 @@ Result<void> make_words(storage::Store& store, Services& services) {
   return {};
 }
 
+// "7.", as the sheet has it before its word.
+bool is_number_on_the_sheet(std::string_view word) {
+  return word.size() > 1 && word.find_first_not_of("0123456789") == word.size() - 1 && word.back() == '.';
+}
+
+// To the end of the line in which the twelfth word stands: one too many is refused, not left out.
 Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   std::string words;
   std::size_t count = 0;
-  for (std::string word; count < storage::kRecoveryWords && std::cin >> word; ++count) words += word + " ";
+  for (std::string line; count < storage::kRecoveryWords && std::getline(std::cin, line);) {
+    std::istringstream list(line);
+    for (std::string word; list >> word;) {
+      if (is_number_on_the_sheet(word)) continue;
+      words += word + " ";
+      ++count;
+    }
+  }
   (void)interrupted();  // as for the other verbs that write, once nothing is read from a person any more
   RELIEVO_TRY_ASSIGN(const auto erased, keeping.recover(words));
   services.console.say("the store has a new key and opens again");
@@ -68,10 +100,11 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
 
 // A call of its own: what it leaves on the stack can be wiped when it has returned.
 [[gnu::noinline]] Result<void> keep(const StoreArgs& args, Services& services) {
-  const Path folder = store_folder(args.store);
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   const auto keeping = services.keep_store(folder);
   switch (args.verb) {
     case StoreArgs::Verb::Check: return check(args, folder, services);
+    case StoreArgs::Verb::Log: return say_log(folder, services);
     case StoreArgs::Verb::Backup:
       (void)interrupted();  // from here on a first Ctrl-C waits: neither half a copy nor a key stays behind
       RELIEVO_TRY(keeping->backup(args.file));

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "firmware/base/budget.h"
-#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/settings.h"
 #include "firmware/base/version.h"
@@ -261,7 +260,7 @@ Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
 
 Result<void> run(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
-  const Path folder = store_folder(args.store);
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   if (args.verb == Verb::Import) return import(args, folder, services);
   RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services)
                                                                 : services.open_store(folder, false));

@@ -18,7 +18,6 @@
 #include "firmware/measure/disparity_map.h"
 #include "firmware/measure/triangle_grid.h"
 #include "firmware/reconstruct/picture_pair.h"
-#include "hal/base/thread_pool.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/model/face_model.h"
 

@@ -295,6 +295,20 @@ void add_troubles(Gallery& g, const ui::ViewState& idle) {
   g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
 }
 
+// How the one put aside differs, and the present one by itself.
+void add_differences(const Lender& all, const ui::ViewState& review, ui::TechnicianView view) {
+  view.differences = true;
+  view.full_colour_mm = 0.5F;
+  view.scale = difference_scale();
+  view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].pixels, 900041}, nullptr, 900041};
+  view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
+  all.add("technician_difference", ui::StaffPage::Compare, view);
+  ui::FaceRuler& ruler = all.add("technician_compare_alone", ui::StaffPage::Compare, view, 1).service.ruler;
+  ruler.on = true;
+  ruler.set({-31, 34, 18});
+  ruler.set({32, 33, 19});
+}
+
 }  // namespace
 
 std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
@@ -313,24 +327,6 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   add_technician_exhibits(staff, review);
   return std::move(g.exhibits);
 }
-
-namespace {
-
-// How the one put aside differs, and the present one by itself.
-void add_differences(const Lender& all, const ui::ViewState& review, ui::TechnicianView view) {
-  view.differences = true;
-  view.full_colour_mm = 0.5F;
-  view.scale = difference_scale();
-  view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].pixels, 900041}, nullptr, 900041};
-  view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
-  all.add("technician_difference", ui::StaffPage::Compare, view);
-  ui::FaceRuler& ruler = all.add("technician_compare_alone", ui::StaffPage::Compare, view, 1).service.ruler;
-  ruler.on = true;
-  ruler.set({-31, 34, 18});
-  ruler.set({32, 33, 19});
-}
-
-}  // namespace
 
 // The same capture by other algorithms, another document, and one whose matcher gave up.
 void add_comparisons(const Lender& all, const ui::ViewState& review, ui::TechnicianView view) {

@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/base/interrupt.h"
 #include "firmware/demo/gallery.h"
 #include "firmware/kiosk/invitation_head.h"
 #include "hal/base/result.h"

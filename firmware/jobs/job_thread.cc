@@ -10,7 +10,6 @@
 #include <exception>
 #include <new>
 
-#include "firmware/base/interrupt.h"
 #include "hal/base/wiped_text.h"
 
 namespace relievo::firmware {

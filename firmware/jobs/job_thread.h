@@ -107,8 +107,7 @@ class JobThread {
   // The name is the system's for this thread (top -H): 15 letters at most.
   explicit JobThread(JobReports& reports, const char* name = "job");
   ~JobThread();
-  JobThread(const JobThread&) = delete;
-  JobThread& operator=(const JobThread&) = delete;
+  JobThread& operator=(JobThread&&) = delete;
 
   // The job is borrowed until its report arrives or wait_until_idle() returns.
   Result<JobId> start(Job& job);

@@ -94,10 +94,10 @@ constexpr std::chrono::seconds kShownInVain{4};  // a side of a recording, befor
 Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   ui_ = std::make_unique<ui::Ui>(std::move(text));
-  // Before the store: a trigger line leaves a process behind (hal/linux/wire/), a copy of all memory there is
-  // then, and no key and no name may be in it.
+  // Before the store: a trigger line leaves a process with a copy of all memory, and no key may be in it.
   RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
-  RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
+  RELIEVO_TRY_ASSIGN(store_, services.open_store(folder, true));
   may_tell_known_ = args.tells_known;
   RELIEVO_TRY_ASSIGN(newest_record_, store_->last_added_at());
   if (services.turn_head && (args.device == "sim" || is_recorded_head(args.device)))
@@ -106,23 +106,22 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY(set_up_measuring(args, services, unknown));
   open_speaker_ = services.open_speaker;
   if (services.find_presence_sensor) presence_ = services.find_presence_sensor();
-  const hal::CaptureMode mode = device_->preferred_mode();
-  memory_ = std::make_unique<BootMemory>(budget::plan_of_a_head(mode.pixels()));
+  memory_ = std::make_unique<BootMemory>(budget::plan_of_a_head(device_->preferred_mode().pixels()));
   std::thread([this] {
     stand_behind_the_page();
     pool_ = std::make_unique<ThreadPool>(pool_size());
   }).join();
   if (auto piece = InvitationHead::read(asset_folder())) invitation_head_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
-  visits_ = std::make_unique<StoredVisits>(*store_, device_->clock(), store_folder(args.store));
+  visits_ = std::make_unique<StoredVisits>(*store_, device_->clock(), folder);
   appliance_ = std::make_unique<Appliance>(
       Appliance::Parts{*device_, *stages_, *memory_, *pool_, *visits_, judge_.get()});
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
   RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved.faces, std::move(moved.note));
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
-  RELIEVO_TRY_ASSIGN(staff_, StaffController::open({*appliance_, *device_, *store_, store_folder(args.store),
-                                                    revision_, services.set_clock, services.console}));
+  RELIEVO_TRY_ASSIGN(staff_, StaffController::open({*appliance_, *device_, *store_, folder, revision_,
+                                                    services.set_clock, services.console}));
   for (const std::string& line : unknown) staff_->log().say(ui::LogEvent::SettingUnknown, {line});
   staff_->set_test_capture(make_test_capture(args, services));
   code_scanner_ = std::make_unique<CodeScanner>(*appliance_, *device_);
@@ -139,9 +138,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     return {};
   });
   // Last: a start that fails leaves the mark as it was.
-  RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
-  restarted_ = run_mark_->ended_early();
-  if (restarted_) staff_->log().say(ui::LogEvent::EndedEarly);
+  RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(folder));
+  if (restarted_ = run_mark_->ended_early(); restarted_) staff_->log().say(ui::LogEvent::EndedEarly);
   look();
   return {};
 }
@@ -201,8 +199,7 @@ void Kiosk::look() {
   view_.now = device_->clock().now();
   view_.wall_now = device_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = appliance_->kept().receipt.view();
-  if (!view_.receipt.empty())
-    newest_record_ = std::max(newest_record_, std::chrono::floor<std::chrono::milliseconds>(view_.wall_now));
+  if (!view_.receipt.empty()) newest_record_ = std::max(newest_record_, appliance_->kept().at);
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
   view_.consent = staff_->consent().now();
   view_.cameras_on = appliance_->grabber().streams();
@@ -217,17 +214,21 @@ void Kiosk::look() {
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
   // Recorded pictures turn nowhere.
   appliance_->ask_for_sides(view_.settings.is_on(ui::Setting::Sides) && (device_->is_live() || turn_head_));
-  view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
-  while (!view_.languages[std::size_t(view_.home)])
-    view_.home = static_cast<ui::Language>((std::size_t(view_.home) + 1) % ui::kLanguages);
+  std::size_t home = std::size_t(view_.settings.of(ui::Setting::Language));
+  while (!view_.languages[home]) home = (home + 1) % ui::kLanguages;
+  view_.home = static_cast<ui::Language>(home);
   view_.known = appliance_->answer().known;
   if (code_scanner_->is_looking()) view_.live = appliance_->live().newest();
   const Result<void> cameras = appliance_->grabber().check_cameras();
   exchanged_ = cameras ? ui::Fault{} : ui::fault_of(cameras.error());
   if (!cameras) view_.calibration_note = exchanged_;
-  view_.out_of_order = out_of_order();
-  if (invitation_head_) view_.invitation_head = &invitation_head_->model();
   view_.service = &staff_->view();
+  // Whoever says that the clock is right knows better than a record that was made while it was ahead.
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(view_.wall_now);
+  if (staff_->take_clock_confirmed()) newest_record_ = std::min(newest_record_, now);
+  view_.out_of_order = out_of_order();
+  staff_->clock_is(view_.out_of_order != ui::Trouble::Clock, newest_record_);
+  if (invitation_head_) view_.invitation_head = &invitation_head_->model();
   if (voice_) voice_->look(view_);
   view_.somebody_near = presence_ == nullptr || presence_->is_on();
 }
@@ -240,8 +241,7 @@ void Kiosk::guarded(const Work& work) {
     work();
   } catch (const std::bad_alloc&) {
     const hal::Instant now = device_->clock().now();
-    // A page that is already made is drawn without memory, though no finger is answered: not every turn
-    // fails.
+    // A page that is made is drawn without memory, though no finger is answered: not every turn fails.
     if (!short_since_ || now - short_last_ > budget::kMemoryIsBack) short_since_ = now;
     short_last_ = now;
     if (now - *short_since_ > budget::kShortOfMemory) throw;

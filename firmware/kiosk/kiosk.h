@@ -35,8 +35,7 @@ namespace relievo::firmware {
 class Kiosk {
  public:
   static Result<std::unique_ptr<Kiosk>> open(const KioskArgs& args, Services& services);
-  Kiosk(const Kiosk&) = delete;
-  Kiosk& operator=(const Kiosk&) = delete;
+  Kiosk& operator=(Kiosk&&) = delete;
 
   void feed(const ui::Input& input);
   // One turn of the main loop: hears what has happened, makes the next frame.

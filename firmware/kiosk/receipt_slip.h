@@ -28,8 +28,7 @@ class ReceiptSlip {
   ReceiptSlip(SideTasks& side_tasks, std::shared_ptr<hal::Printer> printer)
       : side_tasks_(side_tasks), printer_(std::move(printer)) {}
   ~ReceiptSlip() { wipe(); }
-  ReceiptSlip(const ReceiptSlip&) = delete;
-  ReceiptSlip& operator=(const ReceiptSlip&) = delete;
+  ReceiptSlip& operator=(ReceiptSlip&&) = delete;
 
   // view.receipt, once a frame; fills in what a screen may show of it. `number`: of the link.
   void follow(ui::ViewState& view, std::string_view number);

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <new>
 #include <sstream>
-#include <string>
 
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
@@ -59,6 +58,9 @@ Result<void> CodeGuard::was_right() {
 
 Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::FaceModel& model) {
   RELIEVO_TRY(disk_has_room(folder_, record.least_room_mib));
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now());
+  if (now < record.consent.given_at - std::chrono::minutes(1))
+    return Error{Errc::InvalidInput, "the clock went back after the person had agreed: set it"};
   Report report{record.calibration_note, record.algorithms,     record.stages, {},
                 peak_rss_bytes(),        model.quality,         record.drift,  {},
                 model.landmarks,         model.head_from_camera};
@@ -75,6 +77,7 @@ Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::
                                                           &owner));
   // It is stored: nothing from here on may fail, or its person would be told that it is not.
   kept.receipt = short_receipt_of(owner);
+  kept.at = now;
   try {
     if (const auto link = link_number_of(store_, owner)) kept.link = std::string_view(*link);
   } catch (const std::bad_alloc&) {  // the code alone, then

@@ -98,8 +98,7 @@ class RunMark {
  public:
   static Result<std::unique_ptr<RunMark>> set(const std::filesystem::path& folder);
   ~RunMark();
-  RunMark(const RunMark&) = delete;
-  RunMark& operator=(const RunMark&) = delete;
+  RunMark& operator=(RunMark&&) = delete;
   void leave(bool stays) { stays_ = stays; }  // there when this goes?
   // Did the run before this one end in the middle?
   bool ended_early() const { return ended_early_; }

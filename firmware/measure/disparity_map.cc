@@ -3,11 +3,9 @@
 #include "firmware/measure/disparity_map.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <string>
 #include <string_view>
 

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "hal/base/statistics.h"
-#include "pipeline/algorithms.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
 #include "pipeline/mesh/triangle_raster.h"

@@ -8,7 +8,6 @@
 
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/model/calibration.h"
 #include "storage/byte_order.h"
 
 namespace relievo::firmware::measure {

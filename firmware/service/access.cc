@@ -45,31 +45,31 @@ Result<Access::Record> Access::read() {
   std::istringstream in(text);
   Record record;
   std::string version;
-  if (!(in >> version >> record.technician >> record.clerk >> record.wrong >> record.wrong_at_s) ||
+  if (!(in >> version >> record.technician_pin >> record.operator_pin >> record.wrong >> record.wrong_at_s) ||
       version != "1" || record.wrong < 0)
     return Error{Errc::StoreCorrupt, "the staff's PINs cannot be read: restore a copy of the store"};
-  if (record.technician == kNone) record.technician.clear();
-  if (record.clerk == kNone) record.clerk.clear();
+  if (record.technician_pin == kNone) record.technician_pin.clear();
+  if (record.operator_pin == kNone) record.operator_pin.clear();
   return record;
 }
 
 Result<void> Access::write(const Record& record) {
   std::ostringstream out;
   const auto word = [](const std::string& kept) { return kept.empty() ? std::string(kNone) : kept; };
-  out << "1 " << word(record.technician) << ' ' << word(record.clerk) << ' ' << record.wrong << ' '
+  out << "1 " << word(record.technician_pin) << ' ' << word(record.operator_pin) << ' ' << record.wrong << ' '
       << record.wrong_at_s;
   return store_.set_setting(kAccessSetting, out.str());
 }
 
 Result<bool> Access::is_set_up() {
   RELIEVO_TRY_ASSIGN(const Record record, read());
-  return !record.technician.empty() && !record.clerk.empty();
+  return !record.technician_pin.empty() && !record.operator_pin.empty();
 }
 
 Result<ui::StaffRole> Access::forgotten() {
   RELIEVO_TRY_ASSIGN(const Record record, read());
-  if (record.technician.empty() == record.clerk.empty()) return ui::StaffRole::None;
-  return record.technician.empty() ? ui::StaffRole::Technician : ui::StaffRole::Operator;
+  if (record.technician_pin.empty() == record.operator_pin.empty()) return ui::StaffRole::None;
+  return record.technician_pin.empty() ? ui::StaffRole::Technician : ui::StaffRole::Operator;
 }
 
 Result<seconds> Access::wait(Record& record) {
@@ -99,17 +99,18 @@ Result<Attempt> Access::attempt(std::string_view pin) {
   record.wrong_at_s = now_s();
   RELIEVO_TRY(write(record));
   // Both are looked at, whichever it is: the time tells nothing.
-  const Result<bool> technician = is_pin_of(pin, record.technician), clerk = is_pin_of(pin, record.clerk);
-  if (!technician || !clerk) {
+  const Result<bool> technicians = is_pin_of(pin, record.technician_pin),
+                     operators = is_pin_of(pin, record.operator_pin);
+  if (!technicians || !operators) {
     --record.wrong;  // nobody knows
     RELIEVO_TRY(write(record));
-    return technician ? clerk.error() : technician.error();
+    return technicians ? operators.error() : technicians.error();
   }
-  if (!*technician && !*clerk)
+  if (!*technicians && !*operators)
     return Attempt{ui::StaffRole::None, true, wait_after(record.wrong), record.wrong > kFreeTries};
   record.wrong = 0;
   RELIEVO_TRY(write(record));
-  return Attempt{*technician ? ui::StaffRole::Technician : ui::StaffRole::Operator};
+  return Attempt{*technicians ? ui::StaffRole::Technician : ui::StaffRole::Operator};
 }
 
 Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
@@ -118,8 +119,9 @@ Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
     return Error{Errc::InvalidInput, "a PIN has four to eight digits"};
   if (is_simple(pin)) return Error{Errc::InvalidInput, "this PIN is too easy to guess: choose another"};
   RELIEVO_TRY_ASSIGN(const Record record, read());
-  RELIEVO_TRY_ASSIGN(const bool taken,
-                     is_pin_of(pin, role == ui::StaffRole::Technician ? record.clerk : record.technician));
+  RELIEVO_TRY_ASSIGN(
+      const bool taken,
+      is_pin_of(pin, role == ui::StaffRole::Technician ? record.operator_pin : record.technician_pin));
   if (taken) return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
   return {};
 }
@@ -127,7 +129,7 @@ Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
 Result<void> Access::set(ui::StaffRole role, std::string_view pin) {
   RELIEVO_TRY(check_new(role, pin));
   RELIEVO_TRY_ASSIGN(Record record, read());
-  if (record.technician.empty() || record.clerk.empty())
+  if (record.technician_pin.empty() || record.operator_pin.empty())
     return Error{Errc::InvalidState, "choose both PINs first"};
   RELIEVO_TRY_ASSIGN(record.of(role), stretched(pin));
   return write(record);
@@ -150,13 +152,14 @@ Result<void> Access::choose_again(ui::StaffRole role, std::string_view pin) {
   return write(record);
 }
 
-Result<void> Access::set_up(std::string_view technician, std::string_view clerk) {
-  RELIEVO_TRY(check_new(ui::StaffRole::Technician, technician));
-  RELIEVO_TRY(check_new(ui::StaffRole::Operator, clerk));
-  if (technician == clerk) return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
+Result<void> Access::set_up(std::string_view technician_pin, std::string_view operator_pin) {
+  RELIEVO_TRY(check_new(ui::StaffRole::Technician, technician_pin));
+  RELIEVO_TRY(check_new(ui::StaffRole::Operator, operator_pin));
+  if (technician_pin == operator_pin)
+    return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
   Record record;
-  RELIEVO_TRY_ASSIGN(record.technician, stretched(technician));
-  RELIEVO_TRY_ASSIGN(record.clerk, stretched(clerk));
+  RELIEVO_TRY_ASSIGN(record.technician_pin, stretched(technician_pin));
+  RELIEVO_TRY_ASSIGN(record.operator_pin, stretched(operator_pin));
   return write(record);
 }
 

@@ -59,12 +59,14 @@ class Access {
   // In the place of one that was forgotten. InvalidState: it was not. Else as check_new().
   Result<void> choose_again(ui::StaffRole role, std::string_view pin);
   // Both at once: a device is set up or it is not.
-  Result<void> set_up(std::string_view technician, std::string_view clerk);
+  Result<void> set_up(std::string_view technician_pin, std::string_view operator_pin);
 
  private:
   struct Record {
-    std::string technician, clerk;  // stretched
-    std::string& of(ui::StaffRole role) { return role == ui::StaffRole::Technician ? technician : clerk; }
+    std::string technician_pin, operator_pin;  // stretched
+    std::string& of(ui::StaffRole role) {
+      return role == ui::StaffRole::Technician ? technician_pin : operator_pin;
+    }
     int wrong = 0;
     std::int64_t wrong_at_s = 0;  // seconds since 1970, of the last wrong try
   };

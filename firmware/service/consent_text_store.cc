@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
-#include <string>
 
 #include "firmware/base/output_folder.h"
 #include "firmware/service/export_records.h"

@@ -5,8 +5,6 @@
 #include <charconv>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "firmware/service/record_filter.h"
 
@@ -17,11 +15,11 @@ using storage::WallTime;
 
 constexpr std::chrono::hours kEvery{24};
 
-Result<bool> has_jumped(storage::Store& store, WallTime now) {
+Result<WallTime> clock_seen(storage::Store& store) {
   RELIEVO_TRY_ASSIGN(const std::string kept, store.setting(kClockSeenSetting));
   std::int64_t seen_ms = 0;  // nobody has said that it is right
   std::from_chars(kept.data(), kept.data() + kept.size(), seen_ms);
-  return now > WallTime(std::chrono::milliseconds(seen_ms)) + kMostLeap;
+  return WallTime(std::chrono::milliseconds(seen_ms));
 }
 
 }  // namespace
@@ -42,8 +40,8 @@ Result<void> erase_person(storage::Store& store, storage::SubjectId id, EventLog
 Result<void> erase_expired(storage::Store& store, WallTime now, int keep_days, EventLog& log,
                            JobControl& control, int& erased) {
   if (keep_days <= 0) return {};
-  RELIEVO_TRY_ASSIGN(const bool jumped, has_jumped(store, now));
-  if (jumped)
+  RELIEVO_TRY_ASSIGN(const WallTime seen, clock_seen(store));
+  if (now > seen + kMostLeap)
     return Error{
         Errc::InvalidState,
         "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
@@ -60,7 +58,8 @@ Result<void> erase_expired(storage::Store& store, WallTime now, int keep_days, E
     if (!gone && gone.error().code != Errc::NotFound) return gone.error();
     ++erased;
   }
-  return trust_clock(store, now);
+  // A clock that was set back for a while would seem to have jumped when it is right again.
+  return now > seen ? trust_clock(store, now) : Result<void>();
 }
 
 void RetentionWatch::turn(const ui::Settings& settings) {

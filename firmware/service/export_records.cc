@@ -6,11 +6,9 @@
 #include <cerrno>
 #include <chrono>
 #include <memory_resource>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
@@ -56,6 +54,94 @@ Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   fs::remove_all(before(target), error);
   return {};
 }
+
+std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
+  return "code: " + receipt_of(subject) + "\nname: " + subject.name +
+         "\nkept since: " + text_of(subject.created_at) +
+         "\nportraits: " + std::to_string(subject.enrolments) + "\nthis one: " + text_of(newest.created_at) +
+         "\nconsent: " + newest.consent.wording + " (" + newest.consent.language + ") " +
+         text_of(newest.consent.given_at) + "\n";
+}
+
+constexpr float kWritten = 0.85F;  // of the progress: what follows is compared once more
+
+// One export: the errors of its steps, and its progress.
+struct Export {
+  storage::Store& store;
+  const hal::Clock& clock;
+  hal::RemovableMedia& media;
+  const FurtherModels& further;
+  StickWork work;
+  std::vector<std::pair<fs::path, Sums>> made{};
+
+  Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
+    RELIEVO_TRY(work.reach(ExportStep::Load, done));
+    RELIEVO_TRY_ASSIGN(const storage::Subject subject, store.subject(id));
+    RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(id));
+    if (enrolments.empty()) return Error{Errc::NotFound, "has no portrait"};
+    std::pmr::monotonic_buffer_resource memory;
+    RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(enrolments.back().id, &memory));
+    const auto images = pipeline::make_recognition_images(model, memory, memory);
+    if (!images && images.error().code == Errc::OutOfMemory) return images.error();
+    RELIEVO_TRY(work.reach(ExportStep::Write, done + 0.15F * share));
+    RELIEVO_TRY_ASSIGN(const fs::path target,
+                       place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
+    RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
+    storage::ExportOptions options(storage::ExportFrame::Head);
+    options.version = kVersion;
+    if (images) options.images = &*images;  // without a surface there are none
+    RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
+    RELIEVO_TRY(work.reach(ExportStep::Write, done + 0.35F * share));
+    RELIEVO_TRY_ASSIGN(const auto lines, write_further_models(model, further, folder.path(), options.frame,
+                                                              target, work.control.cancelled));
+    std::string note = note_of(subject, enrolments.back());
+    for (const std::string& line : lines) note += line + "\n";  // of a solid also why there is none
+    RELIEVO_TRY(write_text(folder.path() / "record.txt", note, "record.txt"));
+    if (!enrolments.back().report_json.empty())
+      RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
+    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock.wall_now());
+    RELIEVO_TRY(write_manifest(store, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
+    // Before it leaves: no portrait is out of the store of which its log does not tell.
+    RELIEVO_TRY(work.reach(ExportStep::Note, done + 0.5F * share));
+    RELIEVO_TRY(
+        store.append_audit({"enrolment.exported", id, std::to_string(std::int64_t(enrolments.back().id))}));
+    RELIEVO_TRY_ASSIGN(Sums written, keep_folder(folder, target, media, &work, done, share));
+    made.emplace_back(target, std::move(written));
+    return {};
+  }
+
+  Result<void> let_go() {
+    RELIEVO_TRY(work.reach(ExportStep::LetGo, kWritten));
+    std::error_code error;
+    // Another stick may have come in the place of the first.
+    for (const auto& [record, sums] : made)
+      if (!fs::exists(record / "record.txt", error)) return pulled_too_early();
+    RELIEVO_TRY(media.flush_and_eject());
+    return compare_again();
+  }
+
+  // Now nothing but the stick can answer. It is read only, and is let go whatever comes of it.
+  Result<void> compare_again() {
+    ExportTrace& trace = work.trace;
+    trace.step = ExportStep::Again;
+    RELIEVO_TRY(media.take_up_again());
+    trace.whole = 0;
+    float compared = 0;
+    Result<void> same;
+    for (const auto& [record, sums] : made) {
+      ++compared;
+      work.control.progress.done.store(kWritten + (1 - kWritten) * compared / float(made.size() + 1));
+      const Result<Sums> kept = sums_of(record);
+      if (kept && *kept == sums) ++trace.whole;
+      else if (same) same = kept ? not_as_written(record) : kept.error();
+    }
+    if (!media.current()) return pulled_too_early();
+    if (same) trace.step = ExportStep::LetGo;
+    const Result<void> gone = media.flush_and_eject();
+    RELIEVO_TRY(same);
+    return gone;
+  }
+};
 
 }  // namespace
 
@@ -138,94 +224,6 @@ void tidy_folder(const fs::path& folder, bool (*ours)(std::string_view name)) {
   }
 }
 
-namespace {
-
-std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
-  return "code: " + receipt_of(subject) + "\nname: " + subject.name +
-         "\nkept since: " + text_of(subject.created_at) +
-         "\nportraits: " + std::to_string(subject.enrolments) + "\nthis one: " + text_of(newest.created_at) +
-         "\nconsent: " + newest.consent.wording + " (" + newest.consent.language + ") " +
-         text_of(newest.consent.given_at) + "\n";
-}
-
-constexpr float kWritten = 0.85F;  // of the progress: what follows is compared once more
-
-// One export: the errors of its steps, and its progress.
-struct Export {
-  storage::Store& store;
-  const hal::Clock& clock;
-  hal::RemovableMedia& media;
-  const FurtherModels& further;
-  StickWork work;
-  std::vector<std::pair<fs::path, Sums>> made{};
-
-  Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
-    RELIEVO_TRY(work.reach(ExportStep::Load, done));
-    RELIEVO_TRY_ASSIGN(const storage::Subject subject, store.subject(id));
-    RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(id));
-    if (enrolments.empty()) return Error{Errc::NotFound, "has no portrait"};
-    std::pmr::monotonic_buffer_resource memory;
-    RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(enrolments.back().id, &memory));
-    const auto images = pipeline::make_recognition_images(model, memory, memory);
-    if (!images && images.error().code == Errc::OutOfMemory) return images.error();
-    RELIEVO_TRY(work.reach(ExportStep::Write, done + 0.15F * share));
-    RELIEVO_TRY_ASSIGN(const fs::path target,
-                       place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
-    RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
-    storage::ExportOptions options(storage::ExportFrame::Head);
-    options.version = kVersion;
-    if (images) options.images = &*images;  // without a surface there are none
-    RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
-    RELIEVO_TRY(work.reach(ExportStep::Write, done + 0.35F * share));
-    RELIEVO_TRY_ASSIGN(const auto lines, write_further_models(model, further, folder.path(), options.frame,
-                                                              target, work.control.cancelled));
-    std::string note = note_of(subject, enrolments.back());
-    for (const std::string& line : lines) note += line + "\n";  // of a solid also why there is none
-    RELIEVO_TRY(write_text(folder.path() / "record.txt", note, "record.txt"));
-    if (!enrolments.back().report_json.empty())
-      RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
-    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock.wall_now());
-    RELIEVO_TRY(write_manifest(store, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
-    RELIEVO_TRY_ASSIGN(Sums written, keep_folder(folder, target, media, &work, done, share));
-    made.emplace_back(target, std::move(written));
-    return {};
-  }
-
-  Result<void> let_go() {
-    RELIEVO_TRY(work.reach(ExportStep::LetGo, kWritten));
-    std::error_code error;
-    // Another stick may have come in the place of the first.
-    for (const auto& [record, sums] : made)
-      if (!fs::exists(record / "record.txt", error)) return pulled_too_early();
-    RELIEVO_TRY(media.flush_and_eject());
-    return compare_again();
-  }
-
-  // Now nothing but the stick can answer. It is read only, and is let go whatever comes of it.
-  Result<void> compare_again() {
-    ExportTrace& trace = work.trace;
-    trace.step = ExportStep::Again;
-    RELIEVO_TRY(media.take_up_again());
-    trace.whole = 0;
-    float compared = 0;
-    Result<void> same;
-    for (const auto& [record, sums] : made) {
-      ++compared;
-      work.control.progress.done.store(kWritten + (1 - kWritten) * compared / float(made.size() + 1));
-      const Result<Sums> kept = sums_of(record);
-      if (kept && *kept == sums) ++trace.whole;
-      else if (same) same = kept ? not_as_written(record) : kept.error();
-    }
-    if (!media.current()) return pulled_too_early();
-    if (same) trace.step = ExportStep::LetGo;
-    const Result<void> gone = media.flush_and_eject();
-    RELIEVO_TRY(same);
-    return gone;
-  }
-};
-
-}  // namespace
-
 Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace) {
@@ -243,7 +241,8 @@ Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal:
     done += share;
     // Whatever failed: a stick that is gone is the reason.
     if (!media.current()) return pulled_too_early();
-    if (!written && written.error().code == Errc::NotFound && trace.step == ExportStep::Load) {
+    if (!written && trace.step == ExportStep::Load &&
+        (written.error().code == Errc::NotFound || written.error().code == Errc::StoreCorrupt)) {
       trace.left_out = written.error();
       continue;  // the others are written all the same
     }
@@ -268,6 +267,7 @@ ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
   const bool written = trace.step == ExportStep::Find || trace.step >= ExportStep::LetGo;
   if (trace.left_out && trace.whole > 0 && written && !gone) return ui::Outcome::Failed;
   if (trace.step == ExportStep::Again && error.code == Errc::Unsupported) return ui::Outcome::StickUnchecked;
+  if (trace.step == ExportStep::Note) return ui::Outcome::Failed;  // the store's, not the stick's
   if (trace.step >= ExportStep::Write && of_the_stick) {
     if (gone) return ui::Outcome::StickGone;
     if (trace.step == ExportStep::LetGo && (not_allowed || number == EBUSY)) return ui::Outcome::StickHeld;

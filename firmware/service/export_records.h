@@ -27,7 +27,7 @@
 
 namespace relievo::firmware {
 
-enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo, Again };
+enum class ExportStep : std::uint8_t { Find, Load, Note, Write, ReadBack, LetGo, Again };
 
 // How far an export came. Written by the keeper; main reads it when the side task has ended.
 struct ExportTrace {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/further_models.h"
 
-#include <atomic>
 #include <cstdio>
 #include <memory_resource>
 

@@ -50,8 +50,7 @@ class PageController {
  public:
   explicit PageController(PageServices& services) : services_(services) {}
   virtual ~PageController() = default;
-  PageController(const PageController&) = delete;
-  PageController& operator=(const PageController&) = delete;
+  PageController& operator=(PageController&&) = delete;
 
   virtual void opened() {}
   virtual void ask(const ui::StaffRequest&) {}

@@ -3,7 +3,6 @@
 #include "firmware/service/side_tasks.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace relievo::firmware {
 

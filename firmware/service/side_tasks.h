@@ -34,8 +34,7 @@ class SideTasks {
 
   explicit SideTasks(Appliance& appliance);
   ~SideTasks();
-  SideTasks(const SideTasks&) = delete;
-  SideTasks& operator=(const SideTasks&) = delete;
+  SideTasks& operator=(SideTasks&&) = delete;
 
   // Its number, for stop(); none is 0.
   std::uint32_t send(JobLane lane, Work work, Done done, Whose whose = Whose::Page);

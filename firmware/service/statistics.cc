@@ -3,10 +3,8 @@
 #include "firmware/service/statistics.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <sstream>
-#include <utility>
 
 #include "firmware/base/budget.h"
 

@@ -35,8 +35,6 @@ ui::Input TouchTrial::placed(ui::Input input, int width_px, int height_px) const
   return input;
 }
 
-void TouchTrial::wait() { until_ = clock_.now() + kTouchPatience; }
-
 void TouchTrial::begin() {
   crosses_.clear();
   view_ = {};

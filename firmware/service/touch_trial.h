@@ -47,7 +47,7 @@ class TouchTrial {
   const ui::TouchView& view() const { return view_; }
 
  private:
-  void wait();
+  void wait() { until_ = clock_.now() + kTouchPatience; }
   void end(ui::TouchVerdict verdict);
   void fit();
   void keep(const ui::TouchMap& map, ui::TouchVerdict verdict);

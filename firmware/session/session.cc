@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/session/session.h"
 
-#include <string.h>
-
-#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -137,8 +134,6 @@ void EnrolmentSession::took(const pipeline::StereoFrame& frame) {
   products().frame = frame;
   holds_ = spare_slot_.holds(frame.left) ? &spare_slot_ : &slot_;
 }
-
-void EnrolmentSession::begins(State stage) { stage_begins_.at(number_of(stage)) = output_.used(); }
 
 void EnrolmentSession::rework(State from) {
   Products& made = products();

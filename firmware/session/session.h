@@ -143,8 +143,7 @@ class EnrolmentSession {
         sides_(memory.sides()),
         follow_block_(memory.follow()) {}
   ~EnrolmentSession() { close(); }
-  EnrolmentSession(const EnrolmentSession&) = delete;
-  EnrolmentSession& operator=(const EnrolmentSession&) = delete;
+  EnrolmentSession& operator=(EnrolmentSession&&) = delete;
 
   // A subject's name longer than kSubjectNameBytes is InvalidInput; an open session InvalidState.
   Result<void> open(std::string_view subject);
@@ -153,7 +152,7 @@ class EnrolmentSession {
   // the worker.
   void rework(State from);
   // What comes into output() from now on is this stage's. Thread: worker.
-  void begins(State stage);
+  void begins(State stage) { stage_begins_.at(number_of(stage)) = output_.used(); }
   void close();
   bool is_open() const { return open_; }
 
@@ -181,8 +180,7 @@ class EnrolmentSession {
    public:
     explicit Scratch(EnrolmentSession& session) : session_(session), arena_(session.scratch_block_) {}
     ~Scratch() { session_.scratch_touched_ = std::max(session_.scratch_touched_, arena_.high_water()); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
+    Scratch& operator=(Scratch&&) = delete;
     Arena& arena() { return arena_; }
 
    private:

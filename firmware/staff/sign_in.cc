@@ -70,15 +70,29 @@ void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
 
 void SignIn::set_clock() {
   view_.clock_right = true;
-  if (clock_moved_.count() == 0 || view_.clock_refused) return;
+  if (view_.clock_refused) return;
+  if (clock_moved_.count() == 0) return confirm_clock();
   const Result<void> set = parts_.set_clock
                                ? parts_.set_clock(parts_.clock.wall_now() + clock_moved_)
                                : Result<void>(Error{Errc::Unsupported, "this board's clock cannot be set"});
   clock_moved_ = std::chrono::minutes(0);
   view_.clock_right = set.has_value();
   view_.clock_refused = !set;
-  if (set) parts_.log.say(ui::LogEvent::ClockSet);
-  else parts_.log.fault(set.error());
+  if (!set) return parts_.log.fault(set.error());
+  parts_.log.say(ui::LogEvent::ClockSet);
+  confirm_clock();
+}
+
+void SignIn::confirm_clock() {
+  clock_confirmed_ = true;
+  parts_.side_tasks.send(
+      JobLane::Keeper,
+      [&store = parts_.store, now = std::chrono::floor<std::chrono::milliseconds>(parts_.clock.wall_now())](
+          JobControl&) { return trust_clock(store, now); },
+      [&log = parts_.log](const std::optional<Error>& error) {
+        if (error) log.fault(*error);
+      },
+      SideTasks::Whose::Device);
 }
 
 void SignIn::check(std::string_view pin) {
@@ -146,7 +160,7 @@ void SignIn::offered_again(std::string_view pin, StaffRole role) {
         {chosen_by(forgotten_)});
   } else if (before == PinStep::Operator) {
     save({technician_, first_}, PinStep::Technician,
-         [this](const Pins& pins) { return access_.set_up(pins.one.view(), pins.clerk.view()); },
+         [this](const Pins& pins) { return access_.set_up(pins.one.view(), pins.operators.view()); },
          {ui::LogEvent::TechnicianPinChosen, ui::LogEvent::OperatorPinChosen});
     technician_.wipe();
   } else {

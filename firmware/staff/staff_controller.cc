@@ -3,15 +3,10 @@
 #include "firmware/staff/staff_controller.h"
 
 #include <algorithm>
-#include <memory>
 #include <span>
-#include <utility>
 
 #include "firmware/base/wall_time.h"
 #include "firmware/report/report.h"
-#include "firmware/service/page_controller.h"
-#include "firmware/technician/test_capture.h"
-#include "hal/base/assert.h"
 #include "ui/device/settings.h"
 #include "ui/screens/staff_screens.h"
 #include "ui/view/staff_views.h"
@@ -44,7 +39,7 @@ class SettingsController final : public PageController {
     if (asked == nullptr) return;
     const ui::Setting setting = asked->setting;
     const ui::SettingInfo& info = info_of(setting);
-    if (!(services().role == ui::StaffRole::Technician ? info.technician : info.clerk)) return;
+    if (!(services().role == ui::StaffRole::Technician ? info.for_technician : info.for_operator)) return;
     const std::int32_t value = services().settings.wanted().beside(setting, asked->more ? 1 : -1);
     services().settings.change(setting, value, [this](const std::optional<Error>& error) {
       outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
@@ -127,12 +122,6 @@ void fill_page_controllers(PageServices& services, Pages pages) {
   at(ui::StaffPage::Health) = health_controller(services);
   at(ui::StaffPage::Touch) = std::make_unique<TouchController>(services);
   at(ui::StaffPage::Settings) = std::make_unique<SettingsController>(services);
-}
-
-// One for every picture page.
-void fill_technician_pages(PageServices& services, TestCapture& test_capture, Pages pages) {
-  for (auto i = std::size_t(ui::StaffPage::Stages); i <= std::size_t(ui::StaffPage::Calibrate); ++i)
-    pages[i] = std::make_unique<TechnicianController>(services, test_capture, static_cast<ui::StaffPage>(i));
 }
 
 // One table says who may open what: the menu's.
@@ -226,7 +215,8 @@ Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
 
 void StaffController::set_test_capture(std::unique_ptr<TestCapture> test_capture) {
   test_capture_ = std::move(test_capture);
-  fill_technician_pages(services_, *test_capture_, pages_);
+  for (auto i = std::size_t(StaffPage::Stages); i <= std::size_t(StaffPage::Calibrate); ++i)
+    pages_[i] = std::make_unique<TechnicianController>(services_, *test_capture_, static_cast<StaffPage>(i));
 }
 
 void StaffController::noted(const Transition& change) {
@@ -256,7 +246,17 @@ void StaffController::note_fault(const Transition& change, const Error& problem)
   parts_.console.fail(tested ? problem : Error{problem.code, problem.what});
 }
 
-bool StaffController::inside() const { return role_ != StaffRole::None; }
+void StaffController::clock_is(bool right, storage::WallTime newest_record) {
+  if (std::exchange(clock_right_, right) == right || right) return;
+  const Error wrong{
+      Errc::InvalidState,
+      "the clock is before 2026, or a day before the newest record: nobody can enrol until it is set, or the staff say that it is right"};
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(parts_.device.clock().wall_now());
+  log_.fault(wrong);
+  const bool any = newest_record != storage::WallTime{};
+  parts_.console.fail(wrong.at("the clock says " + text_of(now) +
+                               (any ? ", the newest record is of " + text_of(newest_record) : "")));
+}
 
 void StaffController::touched() {
   last_touch_ = parts_.device.clock().now();

@@ -54,8 +54,7 @@ class SignIn {
     bool demands_set_up = false;  // see ui::AccessView::demanded
   };
   explicit SignIn(Parts parts) : parts_(std::move(parts)), access_(parts_.store, parts_.clock) {}
-  SignIn(const SignIn&) = delete;
-  SignIn& operator=(const SignIn&) = delete;
+  SignIn& operator=(SignIn&&) = delete;
 
   // Before any thread uses the store.
   Result<void> look();
@@ -63,12 +62,14 @@ class SignIn {
   void opened(ui::StaffPage page);
   // Whoever typed a right PIN since the last call.
   ui::StaffRole take_entered() { return std::exchange(entered_, ui::StaffRole::None); }
+  // Whether somebody has said since the last call that the clock, as it was or as they set it, is right.
+  bool take_clock_confirmed() { return std::exchange(clock_confirmed_, false); }
   void show(ui::AccessView& view) const;
   void forget();
 
  private:
   struct Pins {
-    WipedText one, clerk;  // the operator's, where both are chosen
+    WipedText one, operators;  // the second where both are chosen
   };
   void check(std::string_view pin);
   void offer(std::string_view pin, ui::StaffRole role);
@@ -79,6 +80,7 @@ class SignIn {
             std::vector<ui::LogEvent> said);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
+  void confirm_clock();
   void settle_in(ui::Language home);
 
   Parts parts_;
@@ -86,6 +88,7 @@ class SignIn {
   ui::AccessView view_;                            // without what time changes (show())
   ui::StaffRole forgotten_ = ui::StaffRole::None;  // whose PIN is to be chosen anew
   std::chrono::minutes clock_moved_{0};
+  bool clock_confirmed_ = false;
   std::optional<ui::Language> home_;  // of the device, until both PINs are chosen
   hal::Instant wait_until_{};
   WipedText first_, technician_;  // typed once; the technician's, until the operator's is there
@@ -110,8 +113,7 @@ class StaffController {
   // Before a thread uses the store.
   static Result<std::unique_ptr<StaffController>> open(Parts parts);
   ~StaffController();
-  StaffController(const StaffController&) = delete;
-  StaffController& operator=(const StaffController&) = delete;
+  StaffController& operator=(StaffController&&) = delete;
 
   // The technician's picture pages. Once, before anybody signs in.
   void set_test_capture(std::unique_ptr<TestCapture> test_capture);
@@ -122,6 +124,9 @@ class StaffController {
   void touched();
   // Once every turn of the main loop, after the appliance's.
   void turn();
+  bool take_clock_confirmed() { return sign_in_.take_clock_confirmed(); }
+  // What it says when it begins to be wrong is told once, against the newest record that came in.
+  void clock_is(bool right, storage::WallTime newest_record);
   // Valid until the next turn().
   const ui::ServiceView& view();
 
@@ -139,7 +144,7 @@ class StaffController {
   void noted(const Transition& change);
   void note_fault(const Transition& change, const Error& problem);
   void save_what_changed();
-  bool inside() const;
+  bool inside() const { return role_ != ui::StaffRole::None; }
   int seconds_left() const;
 
   Parts parts_;
@@ -158,6 +163,7 @@ class StaffController {
   PageController* page_ = nullptr;
   ui::StaffRole role_ = ui::StaffRole::None, waiting_ = ui::StaffRole::None;
   bool turned_ = false;  // the kiosk has begun to serve
+  bool clock_right_ = true;
   hal::Instant last_touch_{};
   float kept_ = 0;              // of the keeper's work, a turn ago
   std::optional<Error> fault_;  // why it does not work, until it does again

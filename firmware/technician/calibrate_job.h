@@ -28,7 +28,7 @@ namespace relievo::firmware {
 // Who shows boards instead of the cameras; empty: the cameras do.
 using ShowBoards = std::function<Result<std::unique_ptr<LivePairs>>(const BoardArgs& board)>;
 
-class CalibrateJob final : public Job {
+class CalibrateJob final : public CameraJob {
  public:
   struct Order {
     BoardArgs board;
@@ -36,7 +36,7 @@ class CalibrateJob final : public Job {
   };
   CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool,
                ShowBoards show)
-      : grabber_(grabber), session_(session), device_(device), pool_(pool), show_(std::move(show)) {}
+      : CameraJob(grabber, session, device), pool_(pool), show_(std::move(show)) {}
   void order(const Order& order);
   Result<void> run(JobControl& control) override;
   void finish() { finish_.store(true, std::memory_order_relaxed); }
@@ -56,9 +56,6 @@ class CalibrateJob final : public Job {
   bool may_pass(const Error& trouble) const;
   void publish(const LivePair& pair, const pipeline::LiveState& state);
 
-  StereoGrabber& grabber_;
-  EnrolmentSession& session_;
-  hal::Device& device_;
   ThreadPool& pool_;
   ShowBoards show_;
   Order order_;

@@ -37,10 +37,9 @@ struct ReliefRoom {
   ~ReliefRoom() { output.wipe(), scratch.wipe(); }
 };
 
-class CameraWatchJob final : public Job {
+class CameraWatchJob final : public CameraJob {
  public:
-  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device)
-      : grabber_(grabber), session_(session), device_(device) {}
+  using CameraJob::CameraJob;
   // With the calibration in use; null: there is none, and no relief. While the job does not run.
   void prepare(const pipeline::StereoCalibration* calibration);
   // With every pair its relief, from the next one on.
@@ -64,9 +63,6 @@ class CameraWatchJob final : public Job {
   // unknown; valid until the next one or wipe(). Errors: InvalidState (no calibration), those of LiveRelief,
   // OutOfMemory.
   Result<ImageView> relief_of(const pipeline::StereoFrame& frame, JobControl& control);
-  StereoGrabber& grabber_;
-  EnrolmentSession& session_;
-  hal::Device& device_;
   std::array<LiveFeed, 3> feeds_{LiveFeed(budget::kWatchedSidePx), LiveFeed(budget::kWatchedSidePx),
                                  LiveFeed()};  // left, right, relief
   std::array<FocusHelp, 2> focus_;

@@ -74,12 +74,10 @@ class RunJob final : public Job {
   std::atomic<State> now_{State::Match};
 };
 
-class TestShotJob final : public Job {
+class TestShotJob final : public CameraJob {
  public:
   TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool)
-      : grabber_(grabber),
-        device_(device),
-        session_(session),
+      : CameraJob(grabber, session, device),
         nobody_(grabber, session, device, pool, nullptr),
         grab_(grabber, session, device, nobody_),
         turn_(grabber, session, device, nobody_, nullptr) {}
@@ -102,9 +100,6 @@ class TestShotJob final : public Job {
  private:
   Result<void> take_side(JobControl& control);
 
-  StereoGrabber& grabber_;
-  hal::Device& device_;
-  EnrolmentSession& session_;
   PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
   GrabJob grab_;
   TurnJob turn_;                // takes a side, follows nobody

@@ -43,8 +43,6 @@ bool TestCapture::is_calibrated() {
   return false;
 }
 
-void TestCapture::say(const Error& error) { problem_ = ui::fault_of(error); }
-
 void TestCapture::opened(ui::StaffPage page) {
   recording_.hide();
   if (page == ui::StaffPage::Cameras) want_watch(true);
@@ -69,7 +67,7 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
   if (ends ? !calibrating : parts_.appliance.state() != State::Staff) return;
   if (alone != nullptr) act_alone(*alone);
   if (const auto* again = std::get_if<ui::RunStages>(&request)) run(again->latest);
-  if (const auto* shown = std::get_if<ui::ShowStage>(&request)) stage_ = shown->stage;
+  if (const auto* shown = std::get_if<ui::ShowStage>(&request)) told_.stage = shown->stage;
   if (const auto* shown = std::get_if<ui::ShowTable>(&request)) tables_.show(shown->table, source());
   if (const auto* list = std::get_if<ui::ListRequest>(&request)) {
     if (page_ == ui::StaffPage::Tables && at_rest()) tables_.ask(*list, source());
@@ -79,7 +77,7 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
   if (const auto* dropped = std::get_if<ui::DropResult>(&request)) kept_.drop(dropped->index);
   if (const auto* saved = std::get_if<ui::LoadSaved>(&request)) load(saved->row, saved->beside);
   calibrations_.act(request);
-  if (algorithms_.act(request)) applied_ = false;
+  if (algorithms_.act(request)) told_.applied = false;
 }
 
 void TestCapture::act_alone(TechnicianAct act) {
@@ -88,12 +86,12 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::AddSide: return may_add_side() ? wait_for_cameras(Next::Side) : void();
     case TechnicianAct::Stop: return stop();
     case TechnicianAct::RemovePair: return pairs_.remove();
-    case TechnicianAct::ByHand: point_ = {}; return void(by_hand_ = !by_hand_);
+    case TechnicianAct::ByHand: point_ = {}; return void(told_.by_hand = !told_.by_hand);
     case TechnicianAct::ApplySet: return apply_set();
     case TechnicianAct::KeepResult: return keep_result();
     case TechnicianAct::WatchCameras: return want_watch(!watch_wanted_);
     case TechnicianAct::ShowRelief: return watch_.show_relief(!watch_.shows_relief());
-    case TechnicianAct::ShowDifference: return void(differences_ = !differences_);
+    case TechnicianAct::ShowDifference: return void(told_.differences = !told_.differences);
     case TechnicianAct::ShowEdges: return watch_.show_edges(!watch_.shows_edges());
     case TechnicianAct::BrighterShot: return watch_.change_light(1);
     case TechnicianAct::DarkerShot: return watch_.change_light(-1);
@@ -103,7 +101,7 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::Record: return record();
     case TechnicianAct::StopRecording: return recording_.stop();
     case TechnicianAct::Save: return save();
-    case TechnicianAct::ListSaved: problem_ = {}; return recording_.list();
+    case TechnicianAct::ListSaved: told_.problem = {}; return recording_.list();
     case TechnicianAct::LeaveSaved: return recording_.hide();
     case TechnicianAct::StoreCalibration:  // the calibrations' own
     case TechnicianAct::SwitchCharuco:
@@ -122,7 +120,7 @@ void TestCapture::act_alone(TechnicianAct act) {
 // has begun meanwhile, and is forgotten where a capture is wanted in its place.
 void TestCapture::wait_for_cameras(Next what) {
   const bool loaded = what == Next::Loaded;
-  const bool works = phase_ == TechnicianPhase::Capturing || phase_ == TechnicianPhase::Running;
+  const bool works = told_.phase == TechnicianPhase::Capturing || told_.phase == TechnicianPhase::Running;
   if (loaded || !works) next_ = what;
   if (!loaded && !works) saved_.reset();
   if (watching_) parts_.side_tasks.stop(taking_);
@@ -155,7 +153,7 @@ void TestCapture::begin_next() {
       parts_.side_tasks.busy(JobLane::Worker))
     return;
   const Next what = std::exchange(next_, Next::None);
-  problem_ = {};
+  told_.problem = {};
   if (what == Next::Side) return may_add_side() ? shoot(true) : void();
   if (what == Next::Calibration || (what == Next::Loaded && saved_->beside)) keep_result();
   forget_capture();
@@ -174,12 +172,12 @@ void TestCapture::forget_capture() {
   tables_.forget();
   run_.pictures().wipe();
   run_.figures().forget();
-  phase_ = TechnicianPhase::Empty;
+  told_.phase = TechnicianPhase::Empty;
   loaded_ = false;
 }
 
 void TestCapture::shoot(bool side) {
-  phase_ = TechnicianPhase::Capturing;
+  told_.phase = TechnicianPhase::Capturing;
   shot_.order(side);
   if (!side) run_.name(stick_name_of(parts_.device.clock().wall_now()));
   taking_ = parts_.side_tasks.send(
@@ -222,10 +220,10 @@ void TestCapture::run(std::int64_t latest) {
 }
 
 void TestCapture::send_run() {
-  problem_ = {};
+  told_.problem = {};
   point_ = {};
   tables_.forget();
-  phase_ = TechnicianPhase::Running;
+  told_.phase = TechnicianPhase::Running;
   working_ = parts_.side_tasks.send(
       JobLane::Worker, [this](JobControl& control) { return run_.run(control); },
       [this](const std::optional<Error>& error) { run_done(error); });
@@ -263,24 +261,24 @@ void TestCapture::take_over() {
 }
 
 void TestCapture::stop() {
-  if (phase_ == TechnicianPhase::Capturing) parts_.side_tasks.stop(taking_);
-  if (phase_ == TechnicianPhase::Running) parts_.side_tasks.stop(working_);
+  if (told_.phase == TechnicianPhase::Capturing) parts_.side_tasks.stop(taking_);
+  if (told_.phase == TechnicianPhase::Running) parts_.side_tasks.stop(working_);
 }
 
 void TestCapture::shot_done(const std::optional<Error>& error) {
-  phase_ = shot_.is_side() ? TechnicianPhase::Ready : TechnicianPhase::Failed;
+  told_.phase = shot_.is_side() ? TechnicianPhase::Ready : TechnicianPhase::Failed;
   if (error) return say(*error);
   if (!shot_.is_side()) run(1);
 }
 
 // A loaded reconstruction was made by other cameras, at another time.
 bool TestCapture::may_add_side() const {
-  return phase_ == TechnicianPhase::Ready && !loaded_ && session_.is_open() && session_.has_sides() &&
+  return told_.phase == TechnicianPhase::Ready && !loaded_ && session_.is_open() && session_.has_sides() &&
          session_.products().model && session_.sides().count() < pipeline::kSides;
 }
 
 void TestCapture::run_done(const std::optional<Error>& error) {
-  phase_ = error ? TechnicianPhase::Failed : TechnicianPhase::Ready;
+  told_.phase = error ? TechnicianPhase::Failed : TechnicianPhase::Ready;
   ++model_number_;
   if (error) say(*error);
   const bool began = !run_.take_back();
@@ -297,9 +295,9 @@ void TestCapture::run_done(const std::optional<Error>& error) {
 void TestCapture::touch(const ui::TouchPicture& touch) {
   const Products* made = products();
   if (made == nullptr || !made->pair) return;
-  if (!by_hand_ && !touch.right && !touch.dragged && made->matches)
+  if (!told_.by_hand && !touch.right && !touch.dragged && made->matches)
     point_ = nearest_match(*made->pair, *made->matches, run_.figures(), touch.x, touch.y);
-  if (!by_hand_) return;
+  if (!told_.by_hand) return;
   if (touch.dragged) pairs_.drag(*made->pair, !touch.right, touch.x, touch.y);
   else pairs_.touch(*made->pair, !touch.right, touch.x, touch.y);
 }
@@ -325,21 +323,21 @@ void TestCapture::apply_set() {
         }
         applying_ = false;
         if (!made) return say(made.error());
-        applied_ = true;
-        problem_ = {};
+        told_.applied = true;
+        told_.problem = {};
       },
       SideTasks::Whose::Device);
 }
 
 void TestCapture::want_watch(bool on) {
   watch_wanted_ = on;
-  if (on) problem_ = {};
+  if (on) told_.problem = {};
   else if (watching_) parts_.side_tasks.stop(taking_);
 }
 
 // When nobody else is at the cameras any more.
 void TestCapture::begin_watch() {
-  if (!watch_wanted_ || watching_ || next_ != Next::None || phase_ == TechnicianPhase::Capturing ||
+  if (!watch_wanted_ || watching_ || next_ != Next::None || told_.phase == TechnicianPhase::Capturing ||
       parts_.side_tasks.busy(JobLane::Capture))
     return;
   const Result<void> opened = session_.is_open() ? Result<void>() : session_.open("");
@@ -365,7 +363,7 @@ void TestCapture::leave() {
   ++visit_;
   watch_.show_relief(false);
   watch_.show_edges(false);
-  watch_wanted_ = watching_ = by_hand_ = applied_ = applying_ = differences_ = false;
+  watch_wanted_ = watching_ = told_.by_hand = told_.applied = applying_ = told_.differences = false;
   next_ = Next::None;
   saved_.reset();
   watch_.wipe();
@@ -374,7 +372,7 @@ void TestCapture::leave() {
   recording_.forget();
   run_.take_back();  // what was dropped while it waited, nobody hears of
   forget_capture();
-  problem_ = {};
+  told_.problem = {};
   algorithms_.begin(parts_.stages.algorithms());
 }
 
@@ -394,7 +392,7 @@ void TestCapture::turn() {
   begin_watch();
   // Until they are compared the page shows them as they are.
   const Products* made = products();
-  if (differences_ && made != nullptr) kept_.compare_on_worker(parts_.side_tasks, *made, model_number_);
+  if (told_.differences && made != nullptr) kept_.compare_on_worker(parts_.side_tasks, *made, model_number_);
 }
 
 }  // namespace relievo::firmware

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -50,8 +49,7 @@ class TestCapture {
   };
   explicit TestCapture(Parts parts);
   ~TestCapture();
-  TestCapture(const TestCapture&) = delete;
-  TestCapture& operator=(const TestCapture&) = delete;
+  TestCapture& operator=(TestCapture&&) = delete;
 
   // What a page asked for.
   void act(const ui::TechnicianRequest& request);
@@ -66,10 +64,10 @@ class TestCapture {
  private:
   enum class Next : std::uint8_t { None, Shot, Side, Calibration, Loaded };  // waits for the capture thread
   bool at_rest() const {
-    return phase_ == ui::TechnicianPhase::Ready || phase_ == ui::TechnicianPhase::Failed;
+    return told_.phase == ui::TechnicianPhase::Ready || told_.phase == ui::TechnicianPhase::Failed;
   }
-  Products* products();
-  TechnicianTables::Source source();
+  Products* products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
+  TechnicianTables::Source source() { return {products(), run_.figures(), calibration()}; }
   void leave();
   void wait_for_cameras(Next what);
   void begin_next();
@@ -94,7 +92,7 @@ class TestCapture {
   void record();
   bool is_calibrated();
   bool may_add_side() const;
-  void say(const Error& error);
+  void say(const Error& error) { told_.problem = ui::fault_of(error); }
   void look_at_poses(const pipeline::Registration& registration);
 
   Parts parts_;
@@ -109,8 +107,7 @@ class TestCapture {
   TechnicianTables tables_;
   ui::StaffPage page_ = ui::StaffPage::Stages;  // opened last
   KeptResults kept_;
-  ui::TechnicianPhase phase_ = ui::TechnicianPhase::Empty;
-  ui::TechnicianStage stage_ = ui::TechnicianStage::Rectified;
+  ui::TechnicianView told_;  // phase, stage, problem, and what is switched on: shown as they are
   ui::TechnicianPoint point_;
   HandPairs pairs_;
   Next next_ = Next::None;
@@ -123,15 +120,11 @@ class TestCapture {
   };
   std::optional<Saved> saved_;  // read from the stick, to be loaded
   bool loaded_ = false;         // what is in the session was, with a calibration of its own
-  bool by_hand_ = false;        // pairs are set by hand
   bool watch_wanted_ = false;   // of the cameras, by whoever is on their page ...
   bool watching_ = false;       // ... and under way
-  bool applied_ = false;        // the algorithms: visitors are measured with them ...
-  bool applying_ = false;       // ... or soon will be
+  bool applying_ = false;       // the algorithms: visitors soon will be measured with them
   std::uint32_t visit_ = 0;     // what a technician asked for who has left is not told the next one
-  bool differences_ = false;    // are shown beside the kept results
   bool left_ = true;            // for another state
-  ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::TechnicianView view_;
 };

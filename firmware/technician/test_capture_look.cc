@@ -8,30 +8,20 @@ namespace relievo::firmware {
 
 static_assert(ui::kTechnicianPoses == pipeline::kMostPoses);
 
-Products* TestCapture::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
-
-TechnicianTables::Source TestCapture::source() { return {products(), run_.figures(), calibration()}; }
-
 const ui::TechnicianView& TestCapture::view() {
-  view_ = {};
-  view_.phase = phase_;
+  view_ = told_;
   view_.calibrated = calibration() != nullptr;
-  view_.problem = problem_;
-  view_.stage = stage_;
-  view_.point = by_hand_ ? pairs_.chosen() : point_;
-  view_.by_hand = by_hand_;
+  view_.point = told_.by_hand ? pairs_.chosen() : point_;
   view_.recording = recording_.view();
   view_.saved = recording_.saved();
-  view_.applied = applied_;
   view_.choice = algorithms_.view();
   view_.calibration = calibrations_.view();
   view_.rows = tables_.view();
   if (watching_ && watch_wanted_) view_.cameras = watch_.newest();
   view_.cameras.starting = watch_wanted_ && !view_.cameras.watched;
   view_.put_aside = kept_.count();
-  for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
-  view_.differences = differences_;
-  if (phase_ == ui::TechnicianPhase::Running) {
+  for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, told_.stage);
+  if (told_.phase == ui::TechnicianPhase::Running) {
     view_.working_on = std::uint8_t(number_of(run_.stage()));
     view_.progress = parts_.side_tasks.progress(JobLane::Worker);
   }
@@ -39,7 +29,7 @@ const ui::TechnicianView& TestCapture::view() {
   if (made == nullptr) return view_;
   view_.can_record = made->frame.has_value();
   view_.result = run_.figures().view();
-  for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
+  for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(told_.stage, side);
   if (made->model) view_.model = &*made->model;
   if (made->cloud) view_.cloud = &*made->cloud;
   view_.model_number = model_number_;
@@ -50,8 +40,8 @@ const ui::TechnicianView& TestCapture::view() {
   view_.sides = session_.sides().count();
   if (made->registration) look_at_poses(*made->registration);
   view_.compared[view_.put_aside] = {
-      view_.result, run_.pictures().picture(stage_, 0), view_.model, model_number_, {}};
-  if (!differences_ || !kept_.is_compared_with(model_number_)) return view_;
+      view_.result, run_.pictures().picture(told_.stage, 0), view_.model, model_number_, {}};
+  if (!told_.differences || !kept_.is_compared_with(model_number_)) return view_;
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i].difference = kept_.difference(i);
   view_.full_colour_mm = kept_.full_colour_mm();
   view_.scale = difference_scale();

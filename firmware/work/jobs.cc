@@ -3,7 +3,6 @@
 #include "firmware/work/jobs.h"
 
 #include <thread>
-#include <utility>
 
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/assert.h"

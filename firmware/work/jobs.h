@@ -49,15 +49,25 @@ class OpenCamerasJob final : public Job {
 Result<pipeline::StereoFrame> take_and_forget(StereoGrabber& grabber, EnrolmentSession& session,
                                               hal::Device& device, const std::atomic<bool>& cancelled);
 
+// What every job that takes pictures works with.
+class CameraJob : public Job {
+ public:
+  CameraJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device)
+      : grabber_(grabber), session_(session), device_(device) {}
+
+ protected:
+  StereoGrabber& grabber_;
+  EnrolmentSession& session_;
+  hal::Device& device_;
+};
+
 // Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small.
 // Meanwhile both cameras are set to the light on the face.
-class PoseJob final : public Job {
+class PoseJob final : public CameraJob {
  public:
   PoseJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool,
           LiveJudge* judge)
-      : grabber_(grabber),
-        session_(session),
-        device_(device),
+      : CameraJob(grabber, session, device),
         pool_(pool),
         judge_(judge),
         exposure_(device.left(), device.right()) {}
@@ -70,9 +80,6 @@ class PoseJob final : public Job {
   Result<ui::LiveView> judge(const pipeline::StereoFrame& frame, JobControl& control);
   Result<void> meter(const pipeline::StereoFrame& frame);
 
-  StereoGrabber& grabber_;
-  EnrolmentSession& session_;
-  hal::Device& device_;
   ThreadPool& pool_;
   LiveJudge* judge_;
   ExposureControl exposure_;
@@ -81,18 +88,15 @@ class PoseJob final : public Job {
 };
 
 // Before a live device a burst at one exposure, else the next pair.
-class GrabJob final : public Job {
+class GrabJob final : public CameraJob {
  public:
   GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose)
-      : grabber_(grabber), session_(session), device_(device), pose_(pose) {}
+      : CameraJob(grabber, session, device), pose_(pose) {}
   Result<void> run(JobControl& control) override;
 
  private:
   void took(const pipeline::StereoFrame& frame);
 
-  StereoGrabber& grabber_;
-  EnrolmentSession& session_;
-  hal::Device& device_;
   PoseJob& pose_;
 };
 
@@ -151,11 +155,11 @@ class LookUpJob final : public Job {
 // are there are in the session. The light stays as it was set for the front. Works on one thread and in the
 // session's follow_block(): the worker has the rest. Thread: run() capture, the others main. Errors: those of
 // the grabber and of LiveJudge.
-class TurnJob final : public Job {
+class TurnJob final : public CameraJob {
  public:
   TurnJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose,
           LiveJudge* judge)
-      : grabber_(grabber), session_(session), device_(device), pose_(pose), judge_(judge) {}
+      : CameraJob(grabber, session, device), pose_(pose), judge_(judge) {}
   // Before it starts: the frontal pair, which lies in the session.
   void begin_with(const pipeline::StereoFrame& front) {
     front_ = front;
@@ -169,9 +173,6 @@ class TurnJob final : public Job {
  private:
   Result<void> follow(JobControl& control, Arena& output, Arena& scratch);
 
-  StereoGrabber& grabber_;
-  EnrolmentSession& session_;
-  hal::Device& device_;
   PoseJob& pose_;
   LiveJudge* judge_;
   ThreadPool alone_{1};

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <utility>
 
 #include "firmware/capture/live_judge.h"
 #include "hal/base/assert.h"

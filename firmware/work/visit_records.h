@@ -42,6 +42,7 @@ struct KeptVisit {
   storage::EnrolmentId enrolment{};
   ShortWipedText<24> receipt;  // for the person's erasure
   ShortWipedText<32> link;     // for where the operator offers their portrait; erases nothing
+  storage::WallTime at{};
 };
 
 // Is there a record of this name, or of this code?

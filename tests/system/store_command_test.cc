@@ -133,6 +133,9 @@ TEST_F(StoreCommand, NoOtherCommandWritesOverItsFiles) {
           "store/relievo.db", own);
   EXPECT_EQ(read_text(here / "store/relievo.key"), key);
   done({"store", "check", "--store", "store"});
+  const std::string log = done({"store", "log", "--store", "store"}).out;
+  EXPECT_TRUE(log.starts_with("1  20")) << log;
+  EXPECT_NE(log.find("  calibration.saved  1\n"), std::string::npos) << log;
 }
 
 // A limit of the shell's is a disk that is full, not the end of the program.

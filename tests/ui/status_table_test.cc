@@ -85,7 +85,7 @@ TEST(StatusTable, EachRuleFiresForItsOwnFactAndLeadsToWhereItIsMended) {
     EXPECT_EQ(found.rule->id, one.rule);
     EXPECT_EQ(found.mood, one.mood);
     fired.insert(one.rule);
-    EXPECT_TRUE(found.rule->technician != StaffPage::Menu || found.rule->clerk != StaffPage::Menu)
+    EXPECT_TRUE(found.rule->for_technician != StaffPage::Menu || found.rule->for_operator != StaffPage::Menu)
         << "nobody could mend it";
     for (const StaffRole role : {StaffRole::Technician, StaffRole::Operator}) {
       const StaffPage page = found.rule->page_of(role);

@@ -13,6 +13,15 @@ using std::chrono::milliseconds;
 
 class VisitNameTest : public VisitHands {};
 
+TEST_F(VisitNameTest, NobodyAgreesByAClockThatWentWrongMeanwhile) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  view.out_of_order = Trouble::Clock;
+  act(ActionKind::Agree);
+  pass(milliseconds(1));
+  EXPECT_EQ(visit.step, Step::Trouble) << "until it is set";
+}
+
 TEST_F(VisitNameTest, ErasingTakesWholeLetters) {
   to_name();
   for (const char* letter : {"J", "ü", "ل", "r"}) visit.type(letter);

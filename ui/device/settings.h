@@ -43,7 +43,7 @@ struct SettingInfo {
   std::string_view key;
   std::span<const std::int32_t> values;  // in the order in which Less and More go through them
   std::int32_t usual;                    // one of them
-  bool technician, clerk;                // who may choose it: technician, operator
+  bool for_technician, for_operator;     // who may choose it
 };
 const SettingInfo& info_of(Setting setting);
 

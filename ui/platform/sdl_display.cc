@@ -36,35 +36,6 @@ std::string status_of(const fs::path& socket) {
   return word;
 }
 
-}  // namespace
-
-std::optional<Error> why_no_screen(const ScreenPlaces& places) {
-  const std::vector<fs::path> cards = cards_in(places.devices);
-  if (cards.empty())
-    return Error{
-        Errc::NotFound,
-        "there is no graphics device: is its driver in the kernel (dmesg | grep drm)? Where nobody looks, SDL_VIDEODRIVER=offscreen"}
-        .at(places.devices.native());
-  const auto usable = [](const fs::path& card) { return access(card.c_str(), R_OK | W_OK) == 0; };
-  if (std::ranges::none_of(cards, usable))
-    return Error{
-        Errc::IoFailed,
-        "this user may not use the screen: put the user into the groups video, render and input, and log in again"}
-        .at(cards.front().native());
-  std::vector<fs::path> sockets = cards_in(places.monitors);
-  std::erase_if(sockets, [](const fs::path& socket) { return status_of(socket).empty(); });
-  if (!sockets.empty() && std::ranges::none_of(sockets, [](const fs::path& socket) {
-        return status_of(socket) != "disconnected";
-      }))
-    return Error{
-        Errc::NotFound,
-        "no monitor is plugged in: check its cable and its power, or force one with video= on the kernel's command line"}
-        .at(sockets.front().native());
-  return std::nullopt;
-}
-
-namespace {
-
 struct Key {
   SDL_Keycode sym;
   Input::Kind kind;
@@ -238,6 +209,31 @@ class SdlDisplay final : public Display {
 };
 
 }  // namespace
+
+std::optional<Error> why_no_screen(const ScreenPlaces& places) {
+  const std::vector<fs::path> cards = cards_in(places.devices);
+  if (cards.empty())
+    return Error{
+        Errc::NotFound,
+        "there is no graphics device: is its driver in the kernel (dmesg | grep drm)? Where nobody looks, SDL_VIDEODRIVER=offscreen"}
+        .at(places.devices.native());
+  const auto usable = [](const fs::path& card) { return access(card.c_str(), R_OK | W_OK) == 0; };
+  if (std::ranges::none_of(cards, usable))
+    return Error{
+        Errc::IoFailed,
+        "this user may not use the screen: put the user into the groups video, render and input, and log in again"}
+        .at(cards.front().native());
+  std::vector<fs::path> sockets = cards_in(places.monitors);
+  std::erase_if(sockets, [](const fs::path& socket) { return status_of(socket).empty(); });
+  if (!sockets.empty() && std::ranges::none_of(sockets, [](const fs::path& socket) {
+        return status_of(socket) != "disconnected";
+      }))
+    return Error{
+        Errc::NotFound,
+        "no monitor is plugged in: check its cable and its power, or force one with video= on the kernel's command line"}
+        .at(sockets.front().native());
+  return std::nullopt;
+}
 
 Result<std::unique_ptr<Display>> open_sdl_display(const DisplayOptions& options) {
   auto display = std::make_unique<SdlDisplay>();

@@ -9,12 +9,10 @@
 #include <limits>
 #include <memory_resource>
 #include <queue>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "hal/base/groups.h"
-#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::ui {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <GLES3/gl3.h>
 
+#include <iterator>
+
 #include "ui/render/gles_program.h"
 
 namespace relievo::ui {
@@ -9,7 +11,9 @@ namespace {
 
 Result<GLuint> compile(GLenum kind, const char* source) {
   const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
+  const char* const all[] = {"#version 300 es\nprecision highp float;\n",
+                             kind == GL_FRAGMENT_SHADER ? "out vec4 colour;\n" : "", source};
+  glShaderSource(shader, GLsizei(std::size(all)), all, nullptr);
   glCompileShader(shader);
   GLint fine = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &fine);
@@ -42,7 +46,7 @@ Result<std::uint32_t> compile_program(const char* vertex, const char* fragment) 
 
 namespace shader {
 
-const char* const kQuadVertex = R"(#version 300 es
+const char* const kQuadVertex = R"(
 layout(location = 0) in vec4 rect;
 layout(location = 1) in vec4 uv;
 layout(location = 2) in vec4 fill_in;
@@ -70,10 +74,8 @@ void main() {
 )";
 
 // A gradient over a large dark ground shows steps: a little noise, the same in every frame, hides them.
-const char* const kFlat = R"(#version 300 es
-precision highp float;
+const char* const kFlat = R"(
 in vec2 place; in vec2 at; flat in vec2 half_size; flat in vec4 fill; flat in vec4 fill_end;
-out vec4 colour;
 void main() {
   if (abs(at.x) > half_size.x || abs(at.y) > half_size.y) discard;
   float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715)))) - 0.5;
@@ -83,11 +85,9 @@ void main() {
 }
 )";
 
-const char* const kShape = R"(#version 300 es
-precision highp float;
+const char* const kShape = R"(
 in vec2 place; in vec2 at; flat in vec2 half_size;
 flat in vec4 fill; flat in vec4 fill_end; flat in vec4 border; flat in vec4 numbers;
-out vec4 colour;
 void main() {
   vec2 q = abs(at) - half_size + numbers.x;
   float d = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - numbers.x;
@@ -106,11 +106,10 @@ void main() {
 }
 )";
 
-const char* const kGlyph = R"(#version 300 es
+const char* const kGlyph = R"(
 precision mediump float;
 in vec2 place; in vec2 texel; flat in vec4 fill;
 uniform sampler2D picture;
-out vec4 colour;
 void main() {
   if (place.x < 0.0 || place.y < 0.0 || place.x > 1.0 || place.y > 1.0) discard;
   float a = texture(picture, texel).r * fill.a;
@@ -118,11 +117,9 @@ void main() {
 }
 )";
 
-const char* const kImage = R"(#version 300 es
-precision highp float;
+const char* const kImage = R"(
 in vec2 at; in vec2 texel; flat in vec2 half_size; flat in vec4 numbers; flat in vec4 fill;
 uniform sampler2D picture;
-out vec4 colour;
 void main() {
   vec2 q = abs(at) - half_size + numbers.x;
   float d = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - numbers.x;
@@ -133,10 +130,8 @@ void main() {
 )";
 
 // numbers: half of the line, the line, nothing, share. The distance to an ellipse, first order (Taubin 1994).
-const char* const kRing = R"(#version 300 es
-precision highp float;
+const char* const kRing = R"(
 in vec2 at; in vec2 texel; flat in vec4 fill; flat in vec4 border; flat in vec4 numbers;
-out vec4 colour;
 void main() {
   vec2 r = texel - numbers.x;  // its half axes: the same in every corner
   vec2 p = at / r;
@@ -151,7 +146,7 @@ void main() {
 }
 )";
 
-const char* const kFaceVertex = R"(#version 300 es
+const char* const kFaceVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 uv;
@@ -171,13 +166,11 @@ void main() {
 }
 )";
 
-const char* const kFace = R"(#version 300 es
-precision highp float;
+const char* const kFace = R"(
 in vec3 normal; in vec2 texel; in vec3 seen_from; in float within;
 uniform sampler2D picture;
 uniform vec3 light;
 uniform float textured, lit, filled, edges, fading, opacity;
-out vec4 colour;
 void main() {
   vec3 n = normalize(normal);
   vec3 v = normalize(seen_from);
@@ -202,7 +195,7 @@ void main() {
 }
 )";
 
-const char* const kBackdropVertex = R"(#version 300 es
+const char* const kBackdropVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 rgba;
 uniform mat4 clip_from_head;
@@ -213,11 +206,10 @@ void main() {
 }
 )";
 
-const char* const kBackdrop = R"(#version 300 es
+const char* const kBackdrop = R"(
 precision mediump float;
 in vec4 tint;
 uniform float opacity;
-out vec4 colour;
 void main() {
   float a = tint.a * opacity;
   colour = vec4(tint.rgb * a, a);
@@ -225,7 +217,7 @@ void main() {
 )";
 
 // A little before the surface they lie on.
-const char* const kPointVertex = R"(#version 300 es
+const char* const kPointVertex = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 clip_from_head;
 uniform float size;
@@ -238,11 +230,10 @@ void main() {
 }
 )";
 
-const char* const kPoint = R"(#version 300 es
+const char* const kPoint = R"(
 precision mediump float;
 in float depth;
 uniform float opacity;
-out vec4 colour;
 void main() {
   vec3 far = vec3(0.20, 0.33, 0.75), middle = vec3(0.25, 0.78, 0.67), near = vec3(1.0, 0.69, 0.25);
   vec3 tint = depth < 0.5 ? mix(far, middle, depth * 2.0) : mix(middle, near, depth * 2.0 - 1.0);

@@ -19,8 +19,7 @@ class Offscreen {
  public:
   static Result<std::unique_ptr<Offscreen>> make(int width_px, int height_px);
   Offscreen() = default;
-  Offscreen(const Offscreen&) = delete;
-  Offscreen& operator=(const Offscreen&) = delete;
+  Offscreen& operator=(Offscreen&&) = delete;
   ~Offscreen();
   void begin();  // what a Renderer draws and reads back is in here
   void end();

@@ -71,7 +71,8 @@ void draw_page(StaffFrame& page) {
 std::span<const StaffPageInfo> staff_pages() { return kPages; }
 
 bool may_open(StaffRole role, const StaffPageInfo& info) {
-  return (role == StaffRole::Technician && info.technician) || (role == StaffRole::Operator && info.clerk);
+  return (role == StaffRole::Technician && info.for_technician) ||
+         (role == StaffRole::Operator && info.for_operator);
 }
 
 const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit& visit,

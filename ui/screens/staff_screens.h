@@ -14,10 +14,10 @@ namespace relievo::ui {
 // A row of the menu: one page of the staff's side.
 struct StaffPageInfo {
   StaffPage page;
-  std::string_view id;     // of its tile
-  const char* title;       // English, the key of its words
-  const char* letter;      // of the icon font
-  bool technician, clerk;  // who may open it: technician, operator
+  std::string_view id;                // of its tile
+  const char* title;                  // English, the key of its words
+  const char* letter;                 // of the icon font
+  bool for_technician, for_operator;  // who may open it
   void (*draw)(StaffFrame&);
   const char* group = nullptr;  // where one begins in the menu: its heading, as the title
 };

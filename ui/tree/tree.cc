@@ -78,8 +78,6 @@ Node& Tree::open(const Node& node) {
   return added;
 }
 
-void Tree::close() { open_.pop_back(); }
-
 void Tree::layout(const Rect& screen, TextEngine& text, const Interaction& hands) {
   RELIEVO_ASSERT(open_.empty() && !nodes_.empty());
   Layout(nodes_, text, hands, right_to_left_).place(0, screen, screen);

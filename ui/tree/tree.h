@@ -126,14 +126,14 @@ class Tree {
   // Adds a node as the last child of the open one (of a row no more than kMostInARow); strings must outlive
   // the frame: keep() copies.
   Node& open(const Node& node);
-  void close();
+  // The innermost ones, so many.
+  void close(int levels = 1) { open_.resize(open_.size() - std::size_t(levels)); }
   // Opens it until the end of the block.
   class Inside {
    public:
     explicit Inside(Tree& tree) : tree_(tree) {}
     ~Inside() { tree_.close(); }
-    Inside(const Inside&) = delete;
-    Inside& operator=(const Inside&) = delete;
+    Inside& operator=(Inside&&) = delete;
 
    private:
     Tree& tree_;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/view/service.h"
 
-#include <algorithm>
-
 #include "hal/base/utf8.h"
 #include "ui/view/view_state.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/view/visit.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace relievo::ui {
@@ -177,9 +176,14 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
   // A touch that was meant for "Stop" does not take the code away.
   if (kind == ActionKind::Finish && view.now - waited_until_ >= kTooLate) go(Step::Attract, view.now);
   if (kind == ActionKind::Agree && has_read()) {
-    touches = 1;
-    agreed_at_ = view.wall_now;
-    step = Step::Name;
+    // A clock that went wrong on this page would date the consent.
+    if (view.out_of_order == Trouble::Clock) {
+      go(Step::Trouble, view.now);
+    } else {
+      touches = 1;
+      agreed_at_ = view.wall_now;
+      step = Step::Name;
+    }
   }
   if (kind == ActionKind::Done) {
     while (name().ends_with(' ')) erase_letter();

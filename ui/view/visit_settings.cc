@@ -37,6 +37,15 @@ constexpr std::array kKeypads{
     kPlain, kPlain};  // in the order of Language
 static_assert(kKeypads.size() == kLanguages);
 
+constexpr float kBirthS = 2.2F, kTurnS = 16, kTurnDeg = 28;  // there and back once
+constexpr float kLooksDeg = 27;
+constexpr float kLookedAtHz = 30;  // so often the head that invites is drawn anew: it moves all day
+constexpr std::chrono::seconds kReads{10};
+
+float seconds(hal::Instant::duration time) { return std::chrono::duration<float>(time).count(); }
+// Begins and ends at rest.
+float eased(float share) { return share * share * (3 - 2 * share); }
+
 }  // namespace
 
 std::string_view keypad_letter(Language language, char digit, std::size_t times, bool capital) {
@@ -96,19 +105,6 @@ void Visit::erase_letter() {
   name_.cut(last_letter_at(name()));
   capitals = name().empty() || name().ends_with(' ') || name().ends_with('-');
 }
-
-namespace {
-
-constexpr float kBirthS = 2.2F, kTurnS = 16, kTurnDeg = 28;  // there and back once
-constexpr float kLooksDeg = 27;
-constexpr float kLookedAtHz = 30;  // so often the head that invites is drawn anew: it moves all day
-constexpr std::chrono::seconds kReads{10};
-
-float seconds(hal::Instant::duration time) { return std::chrono::duration<float>(time).count(); }
-// Begins and ends at rest.
-float eased(float share) { return share * share * (3 - 2 * share); }
-
-}  // namespace
 
 FaceLook Visit::shown_look(hal::Instant now) const {
   if (step == Step::Attract) return invitation(now);

@@ -9,7 +9,6 @@
 #include "firmware/kiosk/code/qr_code.h"
 #include "firmware/records/receipt.h"
 #include "hal/base/utf8.h"
-#include "ui/view/visit.h"
 
 namespace relievo::firmware {
 namespace {

@@ -27,8 +27,7 @@ class CodeScanner {
  public:
   CodeScanner(Appliance& appliance, hal::Device& device);
   ~CodeScanner();
-  CodeScanner(const CodeScanner&) = delete;
-  CodeScanner& operator=(const CodeScanner&) = delete;
+  CodeScanner& operator=(CodeScanner&&) = delete;
 
   bool is_looking() const { return running_; }  // its pictures are in the session's live feed
   // Once a frame. Something that was read and could be a name; else empty.

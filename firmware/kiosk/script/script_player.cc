@@ -6,8 +6,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <locale>
@@ -257,8 +255,13 @@ Result<std::optional<ScriptAction>> read_script_line(const std::string& line, co
 }
 
 Result<std::vector<ScriptAction>> read_script(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) return Error{Errc::NotFound, "cannot be read: give the file of a script"}.at(file.string());
+  std::ifstream source(file);
+  if (!source) return Error{Errc::NotFound, "cannot be read: give the file of a script"}.at(file.string());
+  std::string text(kMostLines * kMostBytes, '\0');  // what has no end is cut in a line too long
+  source.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(source.gcount()));
+  if (source.bad()) return Error{Errc::IoFailed, "could not be read to its end"}.at(file.string());
+  std::istringstream in(std::move(text));
   std::vector<ScriptAction> script;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
@@ -267,7 +270,6 @@ Result<std::vector<ScriptAction>> read_script(const std::filesystem::path& file)
     RELIEVO_TRY_ASSIGN(auto action, read_script_line(line, where));
     if (action) script.push_back(*std::move(action));
   }
-  if (in.bad()) return Error{Errc::IoFailed, "could not be read to its end"}.at(file.string());
   if (script.empty()) return wrong(file.string(), "has no action in it");
   return script;
 }

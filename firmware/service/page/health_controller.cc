@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/page/health_controller.h"
 
-#include <algorithm>
 #include <fstream>
 #include <functional>
-#include <limits>
 #include <memory>
 
 #include "firmware/report/report.h"

@@ -7,7 +7,6 @@
 // that it can show the last day. Thread: main.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>

@@ -3,7 +3,6 @@
 #include "firmware/technician/show/technician_pictures.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>

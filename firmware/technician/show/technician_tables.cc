@@ -89,8 +89,6 @@ void TechnicianTables::cell(const char* format, double value) {
   texts_.emplace_back(text);
 }
 
-void TechnicianTables::word(std::string_view text) { texts_.emplace_back(text); }
-
 void TechnicianTables::fill(const Source& from) {
   texts_.clear();
   if (table_ == TechnicianTable::Calibration) {

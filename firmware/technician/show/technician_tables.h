@@ -46,7 +46,7 @@ class TechnicianTables {
   void fill_poses(const pipeline::Registration& registration, std::size_t row);
   void fill_calibration(const pipeline::StereoCalibration& calibration);
   void cell(const char* format, double value);
-  void word(std::string_view text);
+  void word(std::string_view text) { texts_.emplace_back(text); }
 
   ui::TechnicianTable table_ = ui::TechnicianTable::Matches;
   ListWalk walk_{kTableRows};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Who enrols by command without a calibration is told so before anything is made.
+// Who enrols by command without a calibration, or with an algorithm that is none, is told so before anything
+// is made.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -37,6 +38,28 @@ TEST(EnrolCalibration, OfASimulatedRigThatNobodyKnowsIsMissing) {
   ASSERT_FALSE(enrolled);
   EXPECT_EQ(enrolled.error().code, Errc::NotCalibrated);
   EXPECT_FALSE(std::filesystem::exists(args.store));
+}
+
+TEST(EnrolAlgorithms, AreLookedAtBeforeADeviceIsOpened) {
+  const hal::MonotonicClock clock;
+  Console console;
+  Services services{.console = console, .clock = clock};
+  bool touched = false;
+  services.open_device = [&touched](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+    touched = true;
+    return Error{Errc::Disconnected, "as the test says"};
+  };
+  EnrolArgs args;
+  args.subject = "Ada";
+  args.store = "/nowhere";
+  EXPECT_FALSE(run(args, services));
+  EXPECT_TRUE(touched);
+  for (const char* wrong : {"matcher=foo", "zmncc.window_px=-1"}) {
+    touched = false;
+    args.algorithms.settings = {wrong};
+    EXPECT_FALSE(run(args, services)) << wrong;
+    EXPECT_FALSE(touched) << wrong;
+  }
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-#include "firmware/base/interrupt.h"
+#include "firmware/base/console.h"
 #include "tests/firmware/faults/fault_table.h"
 #include "tests/firmware/faults/faulty_rig.h"
 #include "tests/firmware/faults/frozen_thread.h"

@@ -111,6 +111,7 @@ inline constexpr std::array kRows{
     row(F::StoreFull, {.state = S::Review}, {S::Store}),
     row(F::StoreCorrupt, {.state = S::Fault}, {S::Store}),
     row(F::StoreLocked, {.state = S::Review}, {S::Store}),
+    row(F::ClockBack, {.state = S::Review}, {S::Store}),
     row(F::CaptureFrozen, kRestarts, {S::SelfTest, S::Position, S::Capture, S::Turn, S::Calibrate, S::Fault}),
     row(F::WorkerFrozen, kRestarts,
         {S::Position, S::Capture, S::Turn, S::Match, S::Reconstruct, S::Mesh, S::Texture, S::Assemble,

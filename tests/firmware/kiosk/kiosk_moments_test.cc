@@ -12,6 +12,7 @@
 #include <fstream>
 #include <thread>
 
+#include "firmware/base/wall_time.h"
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/records/receipt.h"
 #include "hal/clock.h"
@@ -91,12 +92,25 @@ class KioskMomentsTest : public KioskHands {
 TEST_F(KioskMomentsTest, AWrongClockBarsTheWayUntilItIsSet) {
   put_into_the_store("Ada");
   world.wall_shift_s = -40 * 86'400;  // before the newest record
+  testing::internal::CaptureStderr();
   open();
   ASSERT_TRUE(reach(ui::Step::Trouble));
+  const std::string told = testing::internal::GetCapturedStderr();
+  for (const auto& time : {stick_name_of(kiosk->view().wall_now), stick_name_of(clock.wall_now())})
+    EXPECT_NE(told.find(time.substr(0, 10)), std::string::npos) << told;
+  const auto logged = [this] {
+    return std::ranges::count_if(kiosk->staff().log().faults(), [](const ui::LogLine& line) {
+      return line.text.find("the clock is before 2026") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(logged(), 1) << "once, not every turn";
   EXPECT_TRUE(says("clock")) << "its own words";
   EXPECT_EQ(find("finish"), nullptr) << "nobody may consent now";
   world.wall_shift_s = 0;
   EXPECT_TRUE(reach(ui::Step::Attract)) << "it goes on by itself";
+  world.wall_shift_s = -40 * 86'400;
+  kiosk->turn();
+  EXPECT_EQ(logged(), 2);
 }
 
 TEST_F(KioskMomentsTest, AnotherAppliancesDateSaysNothingOfThisClock) {

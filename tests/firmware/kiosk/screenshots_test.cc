@@ -15,7 +15,7 @@
 #include <fstream>
 #include <thread>
 
-#include "firmware/base/interrupt.h"
+#include "firmware/base/console.h"
 #include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"

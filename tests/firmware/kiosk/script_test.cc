@@ -57,6 +57,7 @@ TEST(Script, WrongWordsAreToldWithTheirLine) {
   }
   EXPECT_FALSE(read_script_line("tap " + std::string(300, 'x'), "a:1").has_value());
   EXPECT_FALSE(read_script("/nowhere/visit.script").has_value());
+  EXPECT_FALSE(read_script("/dev/zero").has_value());  // has no end
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "empty") << "# nothing\n";
   EXPECT_FALSE(read_script(folder.path() / "empty").has_value());

@@ -9,6 +9,7 @@
 #include "firmware/service/export_records.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
+#include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -19,6 +20,15 @@ using ui::Outcome;
 
 class StaffExportTest : public StaffHands {
  protected:
+  // Without the page: as its job does.
+  Result<void> exported(storage::Store& store, const std::vector<storage::SubjectId>& who,
+                        const FurtherModels& further = {}) {
+    const std::atomic<bool> cancelled{false};
+    pipeline::Progress progress;
+    JobControl control{cancelled, progress};
+    return export_records(store, wall(), faulty, who, further, control, trace);
+  }
+  ExportTrace trace;
   StaffExportTest() { changes.media = &faulty; }
   Outcome outcome() const { return kiosk->view().service->work.outcome; }
   bool ended() {
@@ -263,15 +273,46 @@ TEST_F(StaffExportTest, WhyThereIsNoSolidStandsInTheRecord) {
   enrol("Ada Lovelace");
   auto store = storage::open_sqlite_store(args.store, wall(), {});
   ASSERT_TRUE(store.has_value());
-  const std::atomic<bool> cancelled{false};
-  pipeline::Progress progress;
-  JobControl control{cancelled, progress};
-  ExportTrace trace;
-  ASSERT_TRUE(
-      export_records(**store, wall(), faulty, {storage::SubjectId{1}}, {.watertight = true}, control, trace));
+  ASSERT_TRUE(exported(**store, {storage::SubjectId{1}}, {.watertight = true}));
   const Path record = std::filesystem::directory_iterator(stick() / "relievo")->path();
   EXPECT_FALSE(std::filesystem::exists(record / "solid.stl"));
   EXPECT_NE(text_of_file(record / "record.txt").find("\nno solid: "), std::string::npos);
+  // Whose portrait has left the store stands in its log.
+  const auto lines = (*store)->audit(0, 100);
+  ASSERT_TRUE(lines.has_value());
+  EXPECT_EQ(lines->back().event.what, "enrolment.exported");
+  EXPECT_TRUE(lines->back().event.subject == storage::SubjectId{1} && lines->back().event.detail == "1");
+}
+
+TEST_F(StaffExportTest, WhatTheLogCannotTellOfDoesNotLeaveAndTheStickIsNotBlamed) {
+  enrol("Ada Lovelace");
+  auto store = storage::open_sqlite_store(args.store, wall(), {.mode = storage::OpenMode::ReadOnly});
+  ASSERT_TRUE(store.has_value());
+  const auto done = exported(**store, {storage::SubjectId{1}});
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(outcome_of_export(done.error(), trace), Outcome::Failed);
+  EXPECT_FALSE(std::filesystem::exists(stick() / "relievo"));
+}
+
+TEST_F(StaffExportTest, ADamagedRecordDoesNotKeepTheOthersBack) {
+  enrol("Ada Lovelace");
+  enrol("Grace Hopper");
+  struct OneDamaged final : test::FaultyStore {
+    using FaultyStore::FaultyStore;
+    Result<std::vector<storage::Enrolment>> enrolments(storage::SubjectId id) override {
+      if (id == storage::SubjectId{1}) return Error{Errc::StoreCorrupt, "has lost a part"};
+      return FaultyStore::enrolments(id);
+    }
+  };
+  auto real = storage::open_sqlite_store(args.store, wall(), {});
+  ASSERT_TRUE(real.has_value());
+  const std::atomic<std::optional<Errc>> no_fault;
+  OneDamaged store(*std::move(real), no_fault);
+  const auto done = exported(store, {storage::SubjectId{1}, storage::SubjectId{2}});
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().code, Errc::StoreCorrupt) << "and it is told";
+  EXPECT_EQ(trace.whole, 1);
+  EXPECT_EQ(outcome_of_export(done.error(), trace), Outcome::Failed);
 }
 
 TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {

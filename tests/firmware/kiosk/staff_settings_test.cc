@@ -123,7 +123,7 @@ TEST_F(StaffSettingsTest, EachStandsOnThePageOfWhoMayChooseIt) {
     for (std::size_t i = 0; i < ui::kSettings; ++i) {
       const ui::SettingInfo& info = ui::info_of(static_cast<Setting>(i));
       EXPECT_EQ(find(std::string(info.key) + " more") != nullptr,
-                role == StaffRole::Technician ? info.technician : info.clerk)
+                role == StaffRole::Technician ? info.for_technician : info.for_operator)
           << info.key;
     }
     sign_out();

@@ -110,6 +110,23 @@ TEST_F(StaffStatusTest, AWrongClockReddensItUntilItIsSetOnThePageItLeadsTo) {
   EXPECT_EQ(find("status clock"), nullptr);
 }
 
+TEST_F(StaffStatusTest, WhoSaysThatTheClockIsRightIsBelievedMoreThanARecordOfWhenItWasAhead) {
+  play_device();
+  enrol("Ada Lovelace");
+  enter(StaffRole::Technician);
+  world.wall_shift_s -= 3 * 24 * 3600;  // what the clock said when she was enrolled was wrong, this is right
+  kiosk->turn();
+  ASSERT_TRUE(red("status clock"));
+  tap("status clock");
+  tap("clock right");
+  kiosk->turn();
+  tap("back");
+  EXPECT_EQ(find("status clock"), nullptr);
+  world.wall_shift_s -= 40 * 24 * 3600;  // of this nobody has said so
+  for (int turn = 0; turn < 3; ++turn) kiosk->turn();
+  EXPECT_TRUE(red("status clock"));
+}
+
 TEST_F(StaffStatusTest, APulledCameraReddensItForBothRolesAndOnlyTheTechnicianIsLedToIt) {
   play_device();
   pull_a_camera_from_a_visit();

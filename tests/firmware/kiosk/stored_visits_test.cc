@@ -70,6 +70,22 @@ TEST_F(StoredVisitsTest, WhatWasStoredHasItsCodeThoughNothingCanBeReadAfterIt) {
   EXPECT_EQ(store.enrolment(told->enrolment)->subject, whom->id);
 }
 
+// Else the record would be erased for an age that it does not have.
+TEST_F(StoredVisitsTest, NothingIsStoredByAClockThatWentBackSinceThePersonAgreed) {
+  StoredVisits visits(store, clock, folder.path());
+  VisitRecord record = named("Ada");
+  const auto now = std::chrono::floor<milliseconds>(clock.wall_now());
+  record.consent = {"sample-1", "en", now + std::chrono::hours(1)};
+  const Result<KeptVisit> refused = visits.keep(record, storage::test::sample_model());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Errc::InvalidInput) << "and not a fault of the machine";
+  EXPECT_EQ(*store.count_subjects(), 0);
+  record.consent.given_at = now;
+  const Result<KeptVisit> done = visits.keep(record, storage::test::sample_model());
+  ASSERT_TRUE(done.has_value());
+  EXPECT_EQ(done->at, now);
+}
+
 TEST_F(StoredVisitsTest, ThatTheCamerasHaveMovedIsWrittenAgainWhereTheDiskWasFull) {
   MovedFaces moved(store);
   ASSERT_TRUE(moved.read(7).has_value());

@@ -63,6 +63,19 @@ TEST_F(LastPageTest, TwoCodesInLargeLettersLeaveTheWayOnInView) {
   }
 }
 
+// Who has just been thanked must not read that nothing was kept when the page turns to what is out of order.
+TEST_F(LastPageTest, ThatNothingWasKeptIsSaidOnlyToWhomItHappened) {
+  view.screen = Screen::Idle;
+  visit.step = Step::Trouble;
+  view.out_of_order = Trouble::Clock;
+  ui->show(view, visit);
+  EXPECT_EQ(find("kept"), nullptr);
+  view.out_of_order = Trouble::None;
+  view.trouble = Trouble::Camera;
+  ui->show(view, visit);
+  EXPECT_NE(find("kept"), nullptr);
+}
+
 TEST_F(LastPageTest, SomewhatLargerLettersLeaveTheCodesPicture) {
   visit.text_size = 1;
   for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1024, 600), std::pair(1920, 1080)}) {

@@ -156,8 +156,7 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
   sign("erase", page.tr("Erase"), icon::kErase, ActionKind::Erase, false);
   digit("0");
   sign(ids.done, page.tr("Done"), icon::kCheck, done, true);
-  page.tree.close();
-  page.tree.close();
+  page.tree.close(2);
 }
 
 }  // namespace relievo::ui

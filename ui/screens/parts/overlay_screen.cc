@@ -28,23 +28,6 @@ void language_key(Page& page, Language language) {
   page.tree.leaf(node);
 }
 
-}  // namespace
-
-// Rows of even length; each language keeps its place whichever is chosen.
-void language_grid(Page& page, std::size_t columns) {
-  const auto languages = page.visit.offered(page.view);
-  std::array<Language, kLanguages> shown{};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kLanguages; ++i)
-    if (languages[i]) shown[count++] = static_cast<Language>(i);
-  const std::size_t rows = (count + columns - 1) / columns;
-  const auto in_box = page.tree.inside(page.box(Flow::Column, space::kS));
-  page.in_rows(count, (count + rows - 1) / rows, space::kS,
-               [&](std::size_t i) { language_key(page, shown[i]); });
-}
-
-namespace {
-
 constexpr const char* kAskStaff = mark_tr("Please tell the staff.");
 
 // In the order of Step.
@@ -225,11 +208,23 @@ static_assert(kOverlays.size() == std::size_t(Overlay::Privacy));
 
 }  // namespace
 
+// Rows of even length; each language keeps its place whichever is chosen.
+void language_grid(Page& page, std::size_t columns) {
+  const auto languages = page.visit.offered(page.view);
+  std::array<Language, kLanguages> shown{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kLanguages; ++i)
+    if (languages[i]) shown[count++] = static_cast<Language>(i);
+  const std::size_t rows = (count + columns - 1) / columns;
+  const auto in_box = page.tree.inside(page.box(Flow::Column, space::kS));
+  page.in_rows(count, (count + rows - 1) / rows, space::kS,
+               [&](std::size_t i) { language_key(page, shown[i]); });
+}
+
 void overlay_screen(Page& page) {
   begin_card(page);
   kOverlays[std::size_t(page.visit.overlay) - 1](page);
-  page.tree.close();
-  page.tree.close();
+  page.tree.close(2);
 }
 
 }  // namespace relievo::ui

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/parts/page.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -71,8 +70,6 @@ Node Page::model(std::string_view id, const char* words, float radius_dp) const 
   face.box.radius = px(radius_dp);
   return face;
 }
-
-void Page::space(float grow_share) { tree.leaf(grown(box(Flow::Column), grow_share)); }
 
 Node Page::text(std::string_view words, float size, Weight weight, Colour colour, TextAlign align) const {
   Node node;
@@ -185,8 +182,6 @@ void Page::within_reach() {
                 share_of(std::size_t(visit.reach) + 1, 3));
 }
 
-void Page::privacy() { square_button("privacy", tr("Your data"), icon::kShield, ActionKind::ShowPrivacy); }
-
 void Page::cameras() {
   const bool on = view.cameras_on;
   const char* words = on ? tr("The cameras are on") : tr("The cameras are off");
@@ -225,8 +220,6 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
   tree.keep(rest);
   return tree.kept_since(from);
 }
-
-std::string_view Page::days(int count) { return plural_tr("{} day", "{} days", count); }
 
 std::string_view Page::plural_tr(const char* one, const char* many, int count) {
   return filled(tr.plural(one, many, static_cast<unsigned long>(count)), std::to_string(count));

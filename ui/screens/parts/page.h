@@ -135,7 +135,7 @@ class Page {
   Node stage(float radius_dp, float grow = 1) const;
   // A model, to be turned.
   Node model(std::string_view id, const char* words, float radius_dp) const;
-  void space(float grow_share);
+  void space(float grow_share) { tree.leaf(grown(box(Flow::Column), grow_share)); }
   // Under a name of its own: what tests look for, or a voice is to tell.
   void put(std::string_view id, Role role, Node node) const {
     node.id = id, node.role = role;
@@ -198,7 +198,7 @@ class Page {
   void bigger_text();
   void more_contrast();
   void within_reach();
-  void privacy();
+  void privacy() { square_button("privacy", tr("Your data"), icon::kShield, ActionKind::ShowPrivacy); }
   // Whether the cameras are off, before the consent and when all is over.
   void cameras();
   // "… {} …" with the value in it, kept apart from the direction of the words around.
@@ -210,7 +210,7 @@ class Page {
   std::string_view filled(const char* words, std::span<const std::string_view> values);
   // The form that belongs to the number, with the number in it.
   std::string_view plural_tr(const char* one, const char* many, int count);
-  std::string_view days(int count);
+  std::string_view days(int count) { return plural_tr("{} day", "{} days", count); }
   // The parts one after the other, kept for the frame.
   std::string_view joined(std::initializer_list<std::string_view> parts) const;
   // Figures and identifiers: left to right in every language.

@@ -56,18 +56,6 @@ constexpr std::array<std::array<const char*, 2>, std::size_t(LogEvent::Count)> k
      {mark_tr("This device has just restarted")}}};
 static_assert(kLogWords.back()[0] != nullptr);
 
-}  // namespace
-
-const char* words_of(const Words& tr, Errc code) { return one_of(tr, kFaultWords, code); }
-
-LogWords words_of(const Words& tr, LogEvent event) {
-  if (event >= LogEvent::Count) return {""};
-  const auto& [words, whom] = kLogWords[std::size_t(event)];
-  return {tr(words), whom != nullptr ? tr(whom) : nullptr};
-}
-
-namespace {
-
 // In the order of Setting.
 constexpr std::array kSettingNames{mark_tr("Language"),
                                    mark_tr("Size of the text"),
@@ -88,6 +76,14 @@ constexpr std::array kSettingNames{mark_tr("Language"),
 static_assert(kSettingNames.size() == std::size_t(Setting::Count));
 
 }  // namespace
+
+const char* words_of(const Words& tr, Errc code) { return one_of(tr, kFaultWords, code); }
+
+LogWords words_of(const Words& tr, LogEvent event) {
+  if (event >= LogEvent::Count) return {""};
+  const auto& [words, whom] = kLogWords[std::size_t(event)];
+  return {tr(words), whom != nullptr ? tr(whom) : nullptr};
+}
 
 const char* name_of(const Words& tr, Setting setting) { return one_of(tr, kSettingNames, setting); }
 

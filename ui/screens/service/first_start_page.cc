@@ -77,18 +77,6 @@ void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, 
   number_pad(page, {"digit ", "pin done"}, done);
 }
 
-}  // namespace
-
-void pin_page(StaffFrame& page) {
-  page.begin(page.tr("Staff"), icon::kLock);
-  const AccessView& access = page.staff.access;
-  const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
-  pin_entry(page, page.tr("Your PIN"), words_of(page), ready ? CheckPin{} : Action{});
-  page.end();
-}
-
-namespace {
-
 enum FirstStartMode : int { kWelcome, kClock, kNewPins };
 constexpr const char* kClockSign = "\uf0f0";
 
@@ -119,8 +107,7 @@ void mover(StaffFrame& page, std::string_view label, std::string_view id, int mi
   page.tree.open(left_first(justified(page.box(Flow::Row, space::kXs), Justify::Centre)));
   page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, MoveClock{-minutes}, label);
   page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, MoveClock{minutes}, label);
-  page.tree.close();
-  page.tree.close();
+  page.tree.close(2);
 }
 
 void clock(StaffFrame& page) {
@@ -192,37 +179,6 @@ PinWords words_of(const Words& tr, const AccessView& access) {
           Mood::Bad};
 }
 
-}  // namespace
-
-void pins_page(StaffFrame& page) {
-  const AccessView& access = page.staff.access;
-  const bool ready =
-      page.service.typed().size() >= kLeastPinDigits && !access.checking && access.step != PinStep::Done;
-  pin_entry(page, title_of(page, access.step), words_of(page.tr, access), ready ? OfferPin{} : Action{});
-}
-
-void first_start_page(StaffFrame& page) {
-  if (page.staff.access.forgotten) {
-    page.begin(page.tr("Staff"), icon::kLock);
-    pins_page(page);
-    return page.end();
-  }
-  page.begin(page.tr("First start"), kClockSign);
-  if (page.service.mode == kWelcome) welcome(page);
-  else if (page.service.mode == kClock && !page.staff.access.clock_right) clock(page);
-  else if (page.service.mode == kClock && !page.staff.access.consent_right) consent(page);
-  else pins_page(page);
-  page.end();
-}
-
-void clock_page(StaffFrame& page) {
-  if (page.staff.access.clock_right) page.status("clock set", page.tr("The clock was set"), Mood::Good);
-  clock(page);
-}
-
-// The recovery sheet: twelve words and the same as a QR code, to be written down; then two of them are typed.
-namespace {
-
 enum RecoveryMode : int { kSheet, kTypeWord };
 
 void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
@@ -283,6 +239,41 @@ void typing(StaffFrame& page, const RecoveryView& seen) {
 
 }  // namespace
 
+void pin_page(StaffFrame& page) {
+  page.begin(page.tr("Staff"), icon::kLock);
+  const AccessView& access = page.staff.access;
+  const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
+  pin_entry(page, page.tr("Your PIN"), words_of(page), ready ? CheckPin{} : Action{});
+  page.end();
+}
+
+void pins_page(StaffFrame& page) {
+  const AccessView& access = page.staff.access;
+  const bool ready =
+      page.service.typed().size() >= kLeastPinDigits && !access.checking && access.step != PinStep::Done;
+  pin_entry(page, title_of(page, access.step), words_of(page.tr, access), ready ? OfferPin{} : Action{});
+}
+
+void first_start_page(StaffFrame& page) {
+  if (page.staff.access.forgotten) {
+    page.begin(page.tr("Staff"), icon::kLock);
+    pins_page(page);
+    return page.end();
+  }
+  page.begin(page.tr("First start"), kClockSign);
+  if (page.service.mode == kWelcome) welcome(page);
+  else if (page.service.mode == kClock && !page.staff.access.clock_right) clock(page);
+  else if (page.service.mode == kClock && !page.staff.access.consent_right) consent(page);
+  else pins_page(page);
+  page.end();
+}
+
+void clock_page(StaffFrame& page) {
+  if (page.staff.access.clock_right) page.status("clock set", page.tr("The clock was set"), Mood::Good);
+  clock(page);
+}
+
+// The recovery sheet: twelve words and the same as a QR code, to be written down; then two of them are typed.
 void recovery_page(StaffFrame& page) {
   const RecoveryView* seen = page.staff.recovery;
   if (seen == nullptr) return page.body("wait", page.tr("One moment, please"));

@@ -78,8 +78,7 @@ class Drawing {
     if (what.figure_sign != nullptr) page.sign(what.figure_sign, 24, ink);
     if (!what.figure.empty())
       page.write(page.filled("{}", what.figure), type::kSmall, Weight::Regular, ink, TextAlign::End);
-    page.tree.close();
-    page.tree.close();
+    page.tree.close(2);
     if (!std::isnan(what.limit)) page.write(limit_words(), 18, Weight::Regular, page.palette.bad);
   }
   std::string_view limit_words() {

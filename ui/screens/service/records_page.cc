@@ -151,8 +151,7 @@ void erasing(StaffFrame& page, const RecordRow& shown) {
   const char* how = tr(
       "Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back.");
   page.put("question hint", Role::Text, how, type::kSmall, Weight::Medium, page.palette.ink);
-  page.tree.close();
-  page.tree.close();
+  page.tree.close(2);
   const auto in_row = page.tree.inside(page.box(narrow ? Flow::Column : Flow::Row, space::kS));
   const float share = narrow ? 0.0F : 1.0F;
   page.button("no", tr("Back"), nullptr, ButtonLook::Main, {ActionKind::StaffMode, kList}, share);

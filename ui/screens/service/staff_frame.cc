@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/service/staff_frame.h"
 
-#include <array>
-
 namespace relievo::ui {
 namespace {
 

@@ -247,9 +247,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   write(filled("{}", value), type::kSmall, Weight::Medium, palette.ink, TextAlign::Centre);
   tree.close();
   step_button(id, "more", tr("More"), label, icon::kMore, more);
-  tree.close();
-  tree.close();
-  tree.close();
+  tree.close(3);
   rule_due_ = true;
 }
 

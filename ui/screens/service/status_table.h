@@ -16,11 +16,13 @@ namespace relievo::ui {
 
 struct StatusRule {
   std::string_view id;
-  const char* words;            // English, the key of its words
-  StaffPage technician, clerk;  // where either role mends it; Menu: that is the other's work
+  const char* words;                       // English, the key of its words
+  StaffPage for_technician, for_operator;  // where either role mends it; Menu: that is the other's work
   Mood (*mood)(const ViewState&, const StatusView&);                    // Plain: nothing is wrong
   std::string_view (*value)(StaffFrame&, const StatusView&) = nullptr;  // may be missing
-  StaffPage page_of(StaffRole role) const { return role == StaffRole::Operator ? clerk : technician; }
+  StaffPage page_of(StaffRole role) const {
+    return role == StaffRole::Operator ? for_operator : for_technician;
+  }
 };
 std::span<const StatusRule> status_rules();
 

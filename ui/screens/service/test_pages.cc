@@ -40,6 +40,43 @@ void days(StaffFrame& page, const StatisticsView& seen) {
   count("refused", page.tr("Refused captures"), refused, seen.days.refused);
 }
 
+// Every language with the title its visitors read.
+void titles(StaffFrame& page, const ConsentTexts& own) {
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
+    const ConsentText* text = own.of(language);
+    if (text != nullptr) page.row(info_of(language).code, info_of(language).own_name, text->title);
+  }
+}
+
+void ended(StaffFrame& page, const ConsentTextsView& seen) {
+  const auto& tr = page.tr;
+  if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
+  if (seen.outcome == Outcome::None) return;
+  if (seen.outcome == Outcome::Done) return page.status("outcome", tr("It applies from now on."), Mood::Good);
+  if (seen.outcome == Outcome::NoStick || seen.outcome == Outcome::StickGone) {
+    page.outcome(seen.outcome);
+  } else if (seen.fault != nullptr) {
+    page.status("outcome", words_of(tr, seen.fault->code), Mood::Bad);
+    page.detail(seen.fault->detail);
+  }
+  page.line(tr("Nothing was changed."));
+}
+
+// In the order of Check.
+constexpr std::array kCheckNames{mark_tr("Memory"), mark_tr("Store"), mark_tr("Calibration"),
+                                 mark_tr("Room on the disk"), mark_tr("Cameras")};
+static_assert(kCheckNames.size() == std::size_t(Check::Count));
+
+// In the order of CheckState.
+constexpr std::array kCheckWords{"–", mark_tr("One moment, please"), mark_tr("In order"),
+                                 mark_tr("Not in order")};
+static_assert(kCheckWords.size() == std::size_t(CheckState::Bad) + 1);
+
+Mood mood_of(CheckState state) {
+  return state == CheckState::Good ? Mood::Good : state == CheckState::Bad ? Mood::Bad : Mood::Plain;
+}
+
 }  // namespace
 
 void statistics_page(StaffFrame& page) {
@@ -68,33 +105,6 @@ void statistics_page(StaffFrame& page) {
 
 // Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
 // step of the first start.
-namespace {
-
-// Every language with the title its visitors read.
-void titles(StaffFrame& page, const ConsentTexts& own) {
-  for (std::size_t i = 0; i < kLanguages; ++i) {
-    const auto language = static_cast<Language>(i);
-    const ConsentText* text = own.of(language);
-    if (text != nullptr) page.row(info_of(language).code, info_of(language).own_name, text->title);
-  }
-}
-
-void ended(StaffFrame& page, const ConsentTextsView& seen) {
-  const auto& tr = page.tr;
-  if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
-  if (seen.outcome == Outcome::None) return;
-  if (seen.outcome == Outcome::Done) return page.status("outcome", tr("It applies from now on."), Mood::Good);
-  if (seen.outcome == Outcome::NoStick || seen.outcome == Outcome::StickGone) {
-    page.outcome(seen.outcome);
-  } else if (seen.fault != nullptr) {
-    page.status("outcome", words_of(tr, seen.fault->code), Mood::Bad);
-    page.detail(seen.fault->detail);
-  }
-  page.line(tr("Nothing was changed."));
-}
-
-}  // namespace
-
 void consent_in_force(StaffFrame& page) {
   const auto& tr = page.tr;
   const ConsentTexts* own = page.view.consent;
@@ -120,24 +130,6 @@ void consent_in_force(StaffFrame& page) {
   page.small_button("take consent", tr("Load from the stick"), icon::kStick, ButtonLook::Quiet,
                     busy ? Action{} : TakeConsentText{});
 }
-
-namespace {
-
-// In the order of Check.
-constexpr std::array kCheckNames{mark_tr("Memory"), mark_tr("Store"), mark_tr("Calibration"),
-                                 mark_tr("Room on the disk"), mark_tr("Cameras")};
-static_assert(kCheckNames.size() == std::size_t(Check::Count));
-
-// In the order of CheckState.
-constexpr std::array kCheckWords{"–", mark_tr("One moment, please"), mark_tr("In order"),
-                                 mark_tr("Not in order")};
-static_assert(kCheckWords.size() == std::size_t(CheckState::Bad) + 1);
-
-Mood mood_of(CheckState state) {
-  return state == CheckState::Good ? Mood::Good : state == CheckState::Bad ? Mood::Bad : Mood::Plain;
-}
-
-}  // namespace
 
 void self_test_page(StaffFrame& page) {
   const auto& tr = page.tr;

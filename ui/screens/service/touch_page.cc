@@ -27,7 +27,7 @@ void group(StaffFrame& page, const char* title, std::span<const Setting> setting
   bool titled = false;
   for (const Setting setting : settings) {
     const SettingInfo& info = info_of(setting);
-    if (!(technician ? info.technician : info.clerk)) continue;
+    if (!(technician ? info.for_technician : info.for_operator)) continue;
     if (!titled) page.section(title);
     titled = true;
     chooser(page, page.staff.settings->settings, setting);
@@ -38,39 +38,6 @@ void said(StaffFrame& page) {
   if (page.staff.work.outcome != Outcome::Done) return page.outcome();
   page.status("outcome", page.tr("It applies from now on."), Mood::Good);
 }
-
-}  // namespace
-
-void settings_page(StaffFrame& page) {
-  const auto& tr = page.tr;
-  if (page.staff.settings == nullptr) return page.body("wait", tr("One moment, please"));
-  said(page);
-  page.begin_list("settings");
-  group(page, tr("How a visit begins"),
-        std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
-  group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
-  group(page, tr("Pictures"),
-        std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
-  group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
-  if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
-    page.line(tr(
-        "Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
-  if (page.staff.role == StaffRole::Operator) {
-    page.section(tr("Consent"));
-    const ConsentTexts* own = page.view.consent;
-    page.row("consent", tr("Consent text"), own != nullptr ? std::string_view(own->version) : kConsentWording,
-             own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, int(StaffPage::Consent)});
-  }
-  group(page, tr("Export to the stick"), std::array{Setting::Solids, Setting::TakeHome});
-  group(page, tr("What is heard and what moves"), std::array{Setting::Sounds, Setting::Motion});
-  if (page.staff.settings->clock_jumped)
-    page.line(
-        tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),
-        Mood::Warn);
-  page.tree.close();
-}
-
-namespace {
 
 constexpr const char* kCross = "\uf1a3";
 
@@ -126,6 +93,35 @@ void figures(StaffFrame& page, const TouchView& seen) {
 }
 
 }  // namespace
+
+void settings_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  if (page.staff.settings == nullptr) return page.body("wait", tr("One moment, please"));
+  said(page);
+  page.begin_list("settings");
+  group(page, tr("How a visit begins"),
+        std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
+  group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
+  group(page, tr("Pictures"),
+        std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
+  group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
+  if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
+    page.line(tr(
+        "Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
+  if (page.staff.role == StaffRole::Operator) {
+    page.section(tr("Consent"));
+    const ConsentTexts* own = page.view.consent;
+    page.row("consent", tr("Consent text"), own != nullptr ? std::string_view(own->version) : kConsentWording,
+             own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, int(StaffPage::Consent)});
+  }
+  group(page, tr("Export to the stick"), std::array{Setting::Solids, Setting::TakeHome});
+  group(page, tr("What is heard and what moves"), std::array{Setting::Sounds, Setting::Motion});
+  if (page.staff.settings->clock_jumped)
+    page.line(
+        tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),
+        Mood::Warn);
+  page.tree.close();
+}
 
 void touch_page(StaffFrame& page) {
   const auto& tr = page.tr;

@@ -86,30 +86,6 @@ void words(Page& page) {
   if (page.portrait) tools(page);
 }
 
-}  // namespace
-
-void attract_screen(Page& page) {
-  page.open_page(page.portrait ? page.box(Flow::Column, space::kL, 56, 56)
-                               : page.sided(page.box(Flow::Row, space::kXl, 72, 32)));
-  if (page.portrait) host(page), face(page);
-  words(page);
-  if (!page.portrait) {
-    const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kM)));
-    host(page);
-    face(page);
-    if (tight(page)) page.cameras();
-    tools(page);
-  }
-  page.tree.close();
-  if (!page.visit.rests(page.view.now)) return;
-  Node night = page.box(Flow::Column);
-  night.box.fill = {0, 0, 0, 150};
-  page.tree.leaf(night);
-}
-
-// What happens, what is kept, and the question. No camera has run before the answer.
-namespace {
-
 constexpr float kBadge = 76;
 
 bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
@@ -153,6 +129,26 @@ void points(Page& page) {
 
 }  // namespace
 
+void attract_screen(Page& page) {
+  page.open_page(page.portrait ? page.box(Flow::Column, space::kL, 56, 56)
+                               : page.sided(page.box(Flow::Row, space::kXl, 72, 32)));
+  if (page.portrait) host(page), face(page);
+  words(page);
+  if (!page.portrait) {
+    const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kM)));
+    host(page);
+    face(page);
+    if (tight(page)) page.cameras();
+    tools(page);
+  }
+  page.tree.close();
+  if (!page.visit.rests(page.view.now)) return;
+  Node night = page.box(Flow::Column);
+  night.box.fill = {0, 0, 0, 150};
+  page.tree.leaf(night);
+}
+
+// What happens, what is kept, and the question. No camera has run before the answer.
 void consent_screen(Page& page) {
   const auto& tr = page.tr;
   page.begin(true);

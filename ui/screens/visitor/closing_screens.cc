@@ -92,29 +92,26 @@ Message words_of(const Page& page) {
   switch (waits ? page.view.out_of_order : page.view.trouble) {
     case Trouble::Camera:
       return {icon::kNoCamera, tr("A camera does not answer"),
-              tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
+              tr("Please tell the staff. This device tries again by itself.")};
     case Trouble::Calibration:
-      return {
-          icon::kWrench, tr("The cameras need adjusting"),
-          tr("A technician has to measure them again before portraits can be made. Nothing about you was kept.")};
+      return {icon::kWrench, tr("The cameras need adjusting"),
+              tr("A technician has to measure them again before portraits can be made.")};
     case Trouble::Refused:
       return {
           icon::kPerson, tr("It did not work this time"),
-          tr("No picture was good enough for a portrait. You can start again, or ask the staff for help. Nothing about you was kept.")};
+          tr("No picture was good enough for a portrait. You can start again, or ask the staff for help.")};
     case Trouble::Storage:
     case Trouble::StorageFull:
-      return {icon::kDisk, tr("Nothing can be stored at the moment"),
-              tr("Please tell the staff. Nothing about you was kept.")};
-    case Trouble::TookTooLong:
-      return {icon::kWait, tr("It took too long"), tr("You can start again. Nothing about you was kept.")};
+      return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff.")};
+    case Trouble::TookTooLong: return {icon::kWait, tr("It took too long"), tr("You can start again.")};
     case Trouble::Uncalibrated:
       return {
           icon::kWrench, tr("This device is not set up yet"),
-          tr("A technician has to calibrate its cameras first. As soon as that is done, it carries on by itself. Nothing about you was kept.")};
+          tr("A technician has to calibrate its cameras first. As soon as that is done, it carries on by itself.")};
     case Trouble::Clock:
       return {
           icon::kWait, tr("The clock of this device is wrong"),
-          tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device carries on by itself. Nothing about you was kept.")};
+          tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device carries on by itself.")};
     case Trouble::Restarted:
       return {
           icon::kAgain, tr("This device has just restarted"),
@@ -123,7 +120,7 @@ Message words_of(const Page& page) {
     case Trouble::Other: break;
   }
   return {icon::kAlert, tr("This device needs help"),
-          tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
+          tr("Please tell the staff. This device tries again by itself.")};
 }
 
 constexpr float kCodeSide = 190, kLinkWords = 220, kLinkLetters = 18;  // so many on one of its lines
@@ -302,6 +299,9 @@ void trouble_screen(Page& page) {
   if (page.view.trouble == Trouble::Refused && page.visit.shot_in_the_dark)
     page.body("why", page.tr("It is too dark here for the cameras"), TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
+  // Whoever has just been thanked was kept: what is out of order then is said to the next one.
+  if (page.view.trouble != Trouble::None || page.view.screen != Screen::Idle)
+    page.body("kept", page.tr("Nothing about you was kept."), TextAlign::Centre);
   if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order))
     end_message(page, page.tr("Back to the start"), icon::kAgain, at_foot(page));
   // Who sets it up need not look for the way in.

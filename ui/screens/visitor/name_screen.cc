@@ -46,29 +46,6 @@ void name_ways(Page& page) {
   page.button("lost_code", tr("I lost my code"), icon::kHelp, ButtonLook::Plain, ActionKind::LostCode);
 }
 
-}  // namespace
-
-void known_screen(Page& page) {
-  const auto& tr = page.tr;
-  const bool proven = page.view.known == Known::Code;
-  page.begin(true);
-  page.tree.open(
-      scroller("known", justified(page.grown(page.box(Flow::Column, space::kM)), Justify::Centre)));
-  page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));
-  page.body(
-      "what",
-      proven
-          ? tr("You already have a portrait here. What would you like to do?")
-          : tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."));
-  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  if (proven) two_ways(page);
-  else name_ways(page);
-  page.tree.close();
-  page.end();
-}
-
-namespace {
-
 constexpr float kAsked = 38;  // the size of the question above the field
 constexpr float kFinderHigh = 136, kFinderHighAbreast = 78, kFinderHighPortrait = 300;
 constexpr float kMostOfCode = 1.5F;
@@ -198,6 +175,25 @@ void ask_code(Page& page, const char* asked) {
 }
 
 }  // namespace
+
+void known_screen(Page& page) {
+  const auto& tr = page.tr;
+  const bool proven = page.view.known == Known::Code;
+  page.begin(true);
+  page.tree.open(
+      scroller("known", justified(page.grown(page.box(Flow::Column, space::kM)), Justify::Centre)));
+  page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));
+  page.body(
+      "what",
+      proven
+          ? tr("You already have a portrait here. What would you like to do?")
+          : tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."));
+  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
+  if (proven) two_ways(page);
+  else name_ways(page);
+  page.tree.close();
+  page.end();
+}
 
 void name_screen(Page& page) {
   page.begin(true);

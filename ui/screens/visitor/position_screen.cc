@@ -70,57 +70,6 @@ const char* last_time(const Page& page) {
   return page.tr("That did not work. Once more, please: look straight ahead and hold still.");
 }
 
-}  // namespace
-
-void position_screen(Page& page) {
-  const Said what = said(page);
-  const auto countdown = page.visit.countdown(page.view.live);
-  const bool again_said = last_time(page) != nullptr && !what.good;
-  begin_mirror(page, what, countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F, again_said);
-  page.tree.open(page.box(Flow::Column, space::kS, 40, kMirrorEdge));
-  advice(page, what, page.visit.countdown_number(page.view.live));
-  if (again_said) {
-    Node row = page.box(Flow::Row);
-    row.box.justify =
-        page.portrait ? Justify::Centre : Justify::Start;  // where there is room beside the oval, there
-    const auto in_row = page.tree.inside(row);
-    Node note = page.text(last_time(page), type::kSmall, Weight::Medium, page.palette.ink,
-                          page.portrait ? TextAlign::Centre : TextAlign::Start);
-    note.style.size_px *= grown_over(page) / page.text_share;
-    note.id = "again";
-    note.box.pad_x = page.px(24);
-    note.box.pad_y = page.px(8);
-    note.box.max_width = page.px(page.portrait ? 720.0F : 330.0F);
-    note.box.fill = page.palette.card;
-    note.box.radius = page.px(20);
-    page.tree.leaf(note);
-  }
-  page.space(1);
-  const auto shoot = [&] {
-    page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
-                ActionKind::TakePicture);
-  };
-  if (page.portrait) shoot();
-  page.tree.open(
-      aligned(page.sided(page.box(Flow::Row, page.portrait ? space::kS : space::kXs)), Align::End));
-  // Large words would reach into the oval.
-  if (page.portrait || page.text_share < 1.2F)
-    page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, ActionKind::Back);
-  else page.square_button("back", page.tr("Back"), page.backward(), ActionKind::Back);
-  page.bigger_text();
-  page.square_button("language", page.tr("Language"), icon::kTranslate, ActionKind::ShowLanguages);
-  page.square_button("help", page.tr("Help"), icon::kHelp, ActionKind::ShowHelp);
-  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, ActionKind::Leave);
-  page.space(1);
-  if (!page.portrait) shoot();
-  page.tree.close();
-  page.tree.close();
-  page.tree.close();
-}
-
-// While the head turns: which way, how far, which sides are taken.
-namespace {
-
 Said said_of_turn(const Page& page) {
   using pipeline::TurnAdvice;
   const auto& tr = page.tr;
@@ -178,6 +127,51 @@ void sides(Page& page) {
 
 }  // namespace
 
+void position_screen(Page& page) {
+  const Said what = said(page);
+  const auto countdown = page.visit.countdown(page.view.live);
+  const bool again_said = last_time(page) != nullptr && !what.good;
+  begin_mirror(page, what, countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F, again_said);
+  page.tree.open(page.box(Flow::Column, space::kS, 40, kMirrorEdge));
+  advice(page, what, page.visit.countdown_number(page.view.live));
+  if (again_said) {
+    Node row = page.box(Flow::Row);
+    row.box.justify =
+        page.portrait ? Justify::Centre : Justify::Start;  // where there is room beside the oval, there
+    const auto in_row = page.tree.inside(row);
+    Node note = page.text(last_time(page), type::kSmall, Weight::Medium, page.palette.ink,
+                          page.portrait ? TextAlign::Centre : TextAlign::Start);
+    note.style.size_px *= grown_over(page) / page.text_share;
+    note.id = "again";
+    note.box.pad_x = page.px(24);
+    note.box.pad_y = page.px(8);
+    note.box.max_width = page.px(page.portrait ? 720.0F : 330.0F);
+    note.box.fill = page.palette.card;
+    note.box.radius = page.px(20);
+    page.tree.leaf(note);
+  }
+  page.space(1);
+  const auto shoot = [&] {
+    page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
+                ActionKind::TakePicture);
+  };
+  if (page.portrait) shoot();
+  page.tree.open(
+      aligned(page.sided(page.box(Flow::Row, page.portrait ? space::kS : space::kXs)), Align::End));
+  // Large words would reach into the oval.
+  if (page.portrait || page.text_share < 1.2F)
+    page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, ActionKind::Back);
+  else page.square_button("back", page.tr("Back"), page.backward(), ActionKind::Back);
+  page.bigger_text();
+  page.square_button("language", page.tr("Language"), icon::kTranslate, ActionKind::ShowLanguages);
+  page.square_button("help", page.tr("Help"), icon::kHelp, ActionKind::ShowHelp);
+  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, ActionKind::Leave);
+  page.space(1);
+  if (!page.portrait) shoot();
+  page.tree.close(3);
+}
+
+// While the head turns: which way, how far, which sides are taken.
 void turn_screen(Page& page) {
   const Said what = said_of_turn(page);
   const std::size_t taken = page.view.live.turn ? page.view.live.turn->taken.count() : 0;
@@ -199,9 +193,7 @@ void turn_screen(Page& page) {
   page.button("enough", taken == 0 ? page.tr("I cannot turn my head") : page.tr("That is enough"),
               icon::kGood, ButtonLook::Main, ActionKind::EnoughSides);
   page.text_share = share;
-  page.tree.close();
-  page.tree.close();
-  page.tree.close();
+  page.tree.close(3);
 }
 
 }  // namespace relievo::ui

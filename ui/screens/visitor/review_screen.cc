@@ -83,7 +83,8 @@ void question(Page& page) {
   if (page.view.trouble == Trouble::Storage) {
     page.put("trouble", Role::Alert, tr("Nothing can be stored at the moment"), 22, Weight::Medium,
              page.palette.bad);
-    page.body("what", tr("Please tell the staff. Nothing about you was kept."));
+    page.body("what", tr("Please tell the staff."));
+    page.body("kept", tr("Nothing about you was kept."));
   } else if (page.view.trouble == Trouble::StorageFull) {
     page.put(
         "trouble", Role::Alert,

@@ -54,8 +54,7 @@ void card(Page& page, std::size_t stage, const char* words) {
   }
   page.tree.open(aligned(justified(page.box(Flow::Column, 0, 8, 8), Justify::End), Align::End));
   if (at < now) tick(page);
-  page.tree.close();
-  page.tree.close();
+  page.tree.close(2);
   Node row = centred(page.box(Flow::Row, 10));
   row.box.min_height = page.px(64 * page.text_share);
   const auto in_row = page.tree.inside(row);

@@ -130,7 +130,7 @@ void editor(TechnicianFrame& f) {
           f.palette.bad);
   f.tree.leaf(f.english(option.sentence, type::kSmall));
   char text[96];
-  std::snprintf(text, sizeof text, "%g … %g", option.least, option.most);
+  std::snprintf(text, sizeof text, "%.10g … %.10g", option.least, option.most);
   f.row("option range", f.tr("Possible values"), f.left_to_right(f.with_numbers(text)));
   f.row("option value", f.tr("Now"), value_of(f, option));
   f.tree.close();
@@ -173,8 +173,7 @@ void technician_algorithms_page(TechnicianFrame& f) {
   f.tree.open(f.grown(f.box(Flow::Column, space::kXs), f.portrait ? 1.2F : 1.7F));
   if (editing) editor(f);
   else options(f);
-  f.tree.close();
-  f.tree.close();
+  f.tree.close(2);
   if (editing) return;
   const float grow = f.open_buttons();
   f.small_button("reset", f.tr("As at first"), nullptr, ButtonLook::Quiet, TechnicianAct::ResetSet, grow);

@@ -107,9 +107,7 @@ void running(TechnicianFrame& f) {
     f.row("disagreeing", f.tr("Views that disagree"), f.number(c.disagreeing), Mood::Warn);
   const char* const names[] = {f.tr("Across"), f.tr("Up and down"), f.tr("Size"), f.tr("Tilt")};
   for (std::size_t i = 0; i < c.bars.size(); ++i) bar(f, f.id("bar", i), names[i], c.bars[i]);
-  f.tree.close();
-  f.tree.close();
-  f.tree.close();
+  f.tree.close(3);
   const float grow = f.open_buttons();
   f.small_button("calibration cancel", f.tr("Stop"), icon::kClose, ButtonLook::Quiet,
                  TechnicianAct::CancelCalibration, grow);

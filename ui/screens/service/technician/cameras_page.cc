@@ -130,9 +130,7 @@ void technician_cameras_page(TechnicianFrame& f) {
   f.begin_panel("camera figures");
   if (cameras.watched) figures(f);
   else f.line(cameras.starting ? f.tr("One moment, please") : f.tr("It was stopped"));
-  f.tree.close();
-  f.tree.close();
-  f.tree.close();
+  f.tree.close(3);
   const float grow = f.open_buttons();
   if (cameras.can_be_set) {
     f.small_button("darker", f.tr("Darker"), icon::kDark, ButtonLook::Quiet, TechnicianAct::DarkerShot, grow);

@@ -28,26 +28,6 @@ void hands(TechnicianFrame& f) {
   f.turning_tools();
 }
 
-}  // namespace
-
-void technician_model_page(TechnicianFrame& f) {
-  if (f.capture_state() && f.seen.model == nullptr) {
-    f.failure();
-    f.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
-  } else if (f.seen.model != nullptr) {
-    const auto in_box = f.tree.inside(f.grown(f.abreast_box(space::kM)));
-    f.face(3, hands, size::kTarget + 2 * space::kXs);
-    Node side = justified(f.box(Flow::Column, space::kS), Justify::Centre);
-    if (!f.portrait) side.box.width = f.px(f.large_words() ? 330 : 260);
-    const auto in_side = f.tree.inside(side);
-    switches(f);
-    f.measure_button(0);
-  }
-  f.capture_buttons(false);
-}
-
-namespace {
-
 constexpr float kGap = 6;  // between columns
 
 // In the order of TechnicianTable.
@@ -122,6 +102,22 @@ ListFilters filters_of(TechnicianFrame& f, FilterNames& names) {
 }
 
 }  // namespace
+
+void technician_model_page(TechnicianFrame& f) {
+  if (f.capture_state() && f.seen.model == nullptr) {
+    f.failure();
+    f.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
+  } else if (f.seen.model != nullptr) {
+    const auto in_box = f.tree.inside(f.grown(f.abreast_box(space::kM)));
+    f.face(3, hands, size::kTarget + 2 * space::kXs);
+    Node side = justified(f.box(Flow::Column, space::kS), Justify::Centre);
+    if (!f.portrait) side.box.width = f.px(f.large_words() ? 330 : 260);
+    const auto in_side = f.tree.inside(side);
+    switches(f);
+    f.measure_button(0);
+  }
+  f.capture_buttons(false);
+}
 
 void technician_tables_page(TechnicianFrame& f) {
   const TechnicianRows& rows = f.seen.rows;

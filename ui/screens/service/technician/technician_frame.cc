@@ -21,6 +21,30 @@ constexpr std::array<const char*, kStages> kWorks{mark_tr("Matching"), mark_tr("
     kMade{mark_tr("Accepted matches"), mark_tr("Points"), mark_tr("Triangles"), mark_tr("Texels"),
           mark_tr("Landmarks")};
 
+// Which of the stages makes what is shown, from 1 on.
+std::int32_t work_before(TechnicianStage stage) {
+  if (stage == TechnicianStage::Cloud) return 2;
+  if (stage == TechnicianStage::Mesh) return 3;
+  return stage >= TechnicianStage::Texture ? 4 : 1;
+}
+
+// Beside each other the surfaces of the stage; alone, in mode 1 and on, whatever there is of that result.
+void fill_compared(DrawList& list, const TechnicianView& view, int mode) {
+  static_assert(kCompared == kFaces);
+  const std::size_t alone = std::size_t(std::max(0, mode));
+  for (std::size_t i = 0; i < kCompared; ++i) {
+    const TechnicianCompared& one = view.compared[i];
+    if (one.model == nullptr || (alone == 0 ? !is_turned(view.stage) : alone != i + 1)) continue;
+    const TechnicianDifference& d = one.difference;
+    if (alone > 0 && view.differences && d.known && d.colours != nullptr)
+      list.faces[0] = {one.model, nullptr, d.number, d.colours};
+    else list.faces[alone == 0 ? i : 0] = {one.model, nullptr, one.model_number, nullptr};
+  }
+  list.face_look.textured = view.stage == TechnicianStage::Texture || list.faces[0].colours != nullptr;
+  list.face_look.fill = true;
+  list.face_look.edges = list.face_look.points = false;
+}
+
 }  // namespace
 
 const char* title_of(const Words& tr, TechnicianStage stage) { return one_of(tr, kStageTitles, stage); }
@@ -30,17 +54,6 @@ const char* work_of(const Words& tr, std::size_t stage) {
   return one_of(tr, kWorks, std::min(stage, kStages - 1));
 }
 const char* made_by(const Words& tr, std::size_t stage) { return one_of(tr, kMade, stage); }
-
-namespace {
-
-// Which of the stages makes what is shown, from 1 on.
-std::int32_t work_before(TechnicianStage stage) {
-  if (stage == TechnicianStage::Cloud) return 2;
-  if (stage == TechnicianStage::Mesh) return 3;
-  return stage >= TechnicianStage::Texture ? 4 : 1;
-}
-
-}  // namespace
 
 std::string_view TechnicianFrame::several(std::initializer_list<double> values, int decimals,
                                           const char* unit_name) {
@@ -106,27 +119,6 @@ void TechnicianFrame::pin_dot(float x, float y, Colour colour, std::string_view 
   ui::frame(dot, {}, colour, px(3.5F), px(11));
   tree.leaf(dot);
 }
-
-namespace {
-
-// Beside each other the surfaces of the stage; alone, in mode 1 and on, whatever there is of that result.
-void fill_compared(DrawList& list, const TechnicianView& view, int mode) {
-  static_assert(kCompared == kFaces);
-  const std::size_t alone = std::size_t(std::max(0, mode));
-  for (std::size_t i = 0; i < kCompared; ++i) {
-    const TechnicianCompared& one = view.compared[i];
-    if (one.model == nullptr || (alone == 0 ? !is_turned(view.stage) : alone != i + 1)) continue;
-    const TechnicianDifference& d = one.difference;
-    if (alone > 0 && view.differences && d.known && d.colours != nullptr)
-      list.faces[0] = {one.model, nullptr, d.number, d.colours};
-    else list.faces[alone == 0 ? i : 0] = {one.model, nullptr, one.model_number, nullptr};
-  }
-  list.face_look.textured = view.stage == TechnicianStage::Texture || list.faces[0].colours != nullptr;
-  list.face_look.fill = true;
-  list.face_look.edges = list.face_look.points = false;
-}
-
-}  // namespace
 
 bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit,
                               const Service& service) {
@@ -249,8 +241,7 @@ void TechnicianFrame::saved_list(bool beside) {
     for (std::size_t i = 0; i < seen.saved.names.size(); ++i)
       small_button(id("saved", i), left_to_right(breakable(seen.saved.names[i])), icon::kShape,
                    ButtonLook::Quiet, LoadSaved{i, beside});
-    tree.close();
-    tree.close();
+    tree.close(2);
   }
   const float grow = open_buttons();
   small_button("leave saved", tr("Back"), nullptr, ButtonLook::Quiet, TechnicianAct::LeaveSaved, grow);
@@ -274,7 +265,7 @@ void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
           icon::kCamera, ButtonLook::Quiet, TechnicianAct::AddSide, grow);
     if ((with_run || seen.sides > 0) && there)
       small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, RunStages{}, grow);
-    else if (with_stick && there)
+    else if (with_stick && there && (seen.stage != TechnicianStage::Poses || seen.pose_count > 0))
       small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet,
                    RunStages{work_before(seen.stage)}, grow);
   }
