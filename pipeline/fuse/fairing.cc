@@ -139,7 +139,7 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
 
 void unfold(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
             std::pmr::memory_resource* memory) {
-  constexpr int kUnfoldingRounds = 12;
+  constexpr int kUnfoldingRounds = 24, kAlone = 4;  // rounds in which the neighbours do not move
   std::pmr::vector<std::uint8_t> turned(memory), stays(vertices_mm.size(), 0, memory);
   for (const BorderEdge& e : border_edges(triangles, memory)) stays[e[0]] = 1;
   std::pmr::vector<Vec3f> sum(memory);
@@ -152,9 +152,12 @@ void unfold(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
       const Vec3f around = plus(plus(normal[t[0]], normal[t[1]]), normal[t[2]]);
       if (dot(area_normal(vertices_mm, t), around) >= 0) continue;
       any = true;
-      for (const std::uint32_t v : t) turned[v] = stays[v] == 0 ? 1 : 0;
+      for (const std::uint32_t v : t) turned[v] = round < kAlone ? 1 : 2;
     }
     if (!any) return;
+    spread_rings(triangles, turned);
+    for (std::size_t v = 0; v < stays.size(); ++v)
+      if (stays[v] != 0) turned[v] = 0;
     sum.assign(vertices_mm.size(), Vec3f{});
     count.assign(vertices_mm.size(), 0);
     for (const Triangle& t : triangles)

@@ -79,7 +79,7 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
                                   std::pmr::memory_resource* memory);
 
 // Triangles that are turned over against those around them: their vertices, but for those of rims, go to the
-// middle of their neighbours until none is, or it leads nowhere.
+// middle of their neighbours until none is, later with their neighbours, or it leads nowhere.
 void unfold(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
             std::pmr::memory_resource* memory);
 

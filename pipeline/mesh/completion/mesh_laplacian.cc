@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
@@ -46,8 +47,8 @@ void fair(std::span<Eigen::Vector3d> at, std::span<const Triangle> triangles, st
   const MeshLaplacian laplacian = laplacian_of(at, triangles);
   std::vector<int> place(at.size(), -1);
   int count = 0;
-  for (std::size_t v = 0; v < at.size(); ++v)
-    if (free[v] != 0) place[v] = count++;
+  for (std::size_t v = 0; v < at.size(); ++v)  // nothing says where one of no triangle should lie
+    if (free[v] != 0 && !laplacian.neighbours[v].empty()) place[v] = count++;
   if (count == 0) return;
   // A row a vertex that is free or beside one that is: its bend, from what is free and from what stays.
   std::vector<Eigen::Triplet<double>> bends;
@@ -77,9 +78,9 @@ void fair(std::span<Eigen::Vector3d> at, std::span<const Triangle> triangles, st
   Eigen::MatrixX3d right(bend.rows(), 3);
   for (Eigen::Index r = 0; r < right.rows(); ++r) right.row(r) = -stays[std::size_t(r)];
   const Eigen::SimplicialLDLT<Sparse> solver(Sparse(bend.transpose() * bend));
-  if (solver.info() != Eigen::Success) return;
   const Eigen::MatrixX3d solved = solver.solve(bend.transpose() * right);
-  if (!solved.allFinite()) return;
+  if (solver.info() != Eigen::Success || !solved.allFinite())
+    throw std::runtime_error("a surface could not be laid anew");
   for (std::size_t v = 0; v < at.size(); ++v)
     if (place[v] >= 0) at[v] = solved.row(place[v]).transpose();
 }
