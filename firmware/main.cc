@@ -15,11 +15,10 @@
 #include <string>
 #include <utility>
 
-#include "firmware/base/allocation_count.h"
 #include "firmware/base/process_memory.h"
 #include "firmware/command/commands.h"
+#include "firmware/demo/gallery.h"
 #include "firmware/demo/hand_pairs.h"
-#include "firmware/demo/screenshots.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/clock.h"
 #include "hal/linux/device.h"
@@ -65,9 +64,7 @@ Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {
   if (device == kLinux ||
       (device.size() > kLinux.size() + 1 && device.starts_with(kLinux) && device[kLinux.size()] == ':'))
     return open_linux_device(device);
-  return Error{Errc::InvalidInput,
-               "is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs"}
-      .at(device);
+  return invalid("is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs").at(device);
 }
 
 // The file of --key; or the one beside the store that the TPM sealed; or the credential that systemd hands
@@ -196,7 +193,7 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
 }
 
 // A hand's pose in the world of the simulated rig.
-hal::sim::BoardPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& board) {
+hal::sim::BodyPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& board) {
   return hal::sim::HeldPlace{held.right_mm, held.down_mm,   held.distance_mm,
                              held.yaw_deg,  held.pitch_deg, held.roll_deg}
       .pose(board);

@@ -143,4 +143,12 @@ inline std::string_view text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// Bytes as libsodium takes them: of spans, vectors, arrays; what may not be written stays so.
+template <typename Bytes>
+auto* raw(Bytes&& bytes) {
+  using Byte = std::remove_pointer_t<decltype(bytes.data())>;
+  using Char = std::conditional_t<std::is_const_v<Byte>, const unsigned char, unsigned char>;
+  return reinterpret_cast<Char*>(bytes.data());
+}
+
 }  // namespace relievo::storage

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "pipeline/model/vector3.h"
 #include "storage/byte_order.h"
 #include "storage/sodium_sha256.h"
 
@@ -75,35 +76,28 @@ bool usable(const CameraIntrinsics& camera) {
 // R R^T = 1 and no mirror, as far as a calibration file with six decimals can say so.
 bool is_rotation(const pipeline::Rotation& r) {
   constexpr double kTolerance = 1e-4;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const double dot =
-          r.m[3 * i] * r.m[3 * j] + r.m[3 * i + 1] * r.m[3 * j + 1] + r.m[3 * i + 2] * r.m[3 * j + 2];
-      if (!(std::abs(dot - (i == j ? 1 : 0)) < kTolerance)) return false;
-    }
-  }
-  const double determinant = r.m[0] * (r.m[4] * r.m[8] - r.m[5] * r.m[7]) -
-                             r.m[1] * (r.m[3] * r.m[8] - r.m[5] * r.m[6]) +
-                             r.m[2] * (r.m[3] * r.m[7] - r.m[4] * r.m[6]);
-  return determinant > 0;
+  const pipeline::Vec3d rows[] = {
+      {r.m[0], r.m[1], r.m[2]}, {r.m[3], r.m[4], r.m[5]}, {r.m[6], r.m[7], r.m[8]}};
+  for (const auto& a : rows)
+    for (const auto& b : rows)
+      if (!(std::abs(dot(a, b) - (&a == &b ? 1 : 0)) < kTolerance)) return false;
+  return dot(rows[0], cross(rows[1], rows[2])) > 0;
 }
 
 }  // namespace
 
 Result<void> check_calibration(const StereoCalibration& calibration) {
-  if (!usable(calibration.left))
-    return Error{Errc::InvalidInput, "the left camera's calibration cannot be right"};
-  if (!usable(calibration.right))
-    return Error{Errc::InvalidInput, "the right camera's calibration cannot be right"};
+  if (!usable(calibration.left)) return invalid("the left camera's calibration cannot be right");
+  if (!usable(calibration.right)) return invalid("the right camera's calibration cannot be right");
   const auto& t = calibration.right_from_left.translation_mm;
   const double baseline_mm = std::hypot(t.x, t.y, t.z);
   if (!is_rotation(calibration.right_from_left.rotation) || !std::isfinite(baseline_mm) ||
       !(baseline_mm > 0) || !std::isfinite(calibration.rms_px) || calibration.rms_px < 0 ||
       !std::isfinite(calibration.epipolar_shift_px) || calibration.epipolar_shift_px < 0) {
-    return Error{Errc::InvalidInput, "the position of the right camera to the left one cannot be right"};
+    return invalid("the position of the right camera to the left one cannot be right");
   }
   if (!is_name(calibration.cameras.left) || !is_name(calibration.cameras.right))
-    return Error{Errc::InvalidInput, "the name of a calibrated camera cannot be right"};
+    return invalid("the name of a calibrated camera cannot be right");
   return {};
 }
 

@@ -79,7 +79,7 @@ Result<Shape> shape_of(const FaceModel& model) {
   const std::size_t v = mesh.vertices_mm.size();
   if (v > kMaxModelVertices || mesh.triangles.size() > kMaxModelTriangles || texture.width_px < 0 ||
       texture.height_px < 0) {
-    return Error{Errc::InvalidInput, "the model is larger than the store takes"};
+    return invalid("the model is larger than the store takes");
   }
   Shape shape{std::uint32_t(v), std::uint32_t(mesh.triangles.size()), std::uint32_t(texture.width_px),
               std::uint32_t(texture.height_px)};
@@ -93,7 +93,7 @@ Result<Shape> shape_of(const FaceModel& model) {
   note(texture.uv, Shape::Uv);
   note(texture.vertex_rgb, Shape::VertexRgb);
   note(texture.origin, Shape::Origin);
-  if (!shape.within_limits()) return Error{Errc::InvalidInput, "the texture is larger than the store takes"};
+  if (!shape.within_limits()) return invalid("the texture is larger than the store takes");
   RELIEVO_TRY(check_arrays(model));
   return shape;
 }
@@ -161,9 +161,8 @@ Result<void> check_arrays(const FaceModel& model) {
       fits(mesh.normals, v) && fits(mesh.sigma_mm, v) && fits(mesh.measured, v) && fits(mesh.pose, v) &&
       fits(texture.uv, mesh.triangles.size() * 3) && fits(texture.vertex_rgb, v * 3) &&
       fits(texture.origin, texture.rgb.size() / 3);
-  if (!lengths_fit) return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
-  if (!indices_fit(mesh))
-    return Error{Errc::InvalidInput, "a triangle of the model names a vertex that is not there"};
+  if (!lengths_fit) return invalid("the model's arrays do not fit together");
+  if (!indices_fit(mesh)) return invalid("a triangle of the model names a vertex that is not there");
   return {};
 }
 

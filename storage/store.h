@@ -25,7 +25,6 @@
 #include <vector>
 
 #include "hal/base/result.h"
-#include "storage/person_record.h"
 #include "storage/record.h"
 
 namespace relievo::storage {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <system_error>
 
 #include "hal/base/result.h"
 
@@ -15,9 +16,16 @@ inline constexpr const char *kStoreFile = "relievo.db", *kKeyFile = "relievo.key
                             *kLockFile = "relievo.lock";  // in the store's directory
 
 // A store that was opened for writing lies in it, or a store's key.
-bool is_store_folder(const std::filesystem::path& folder);
+inline bool is_store_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder / kLockFile, ignored) ||
+         std::filesystem::exists(folder / kKeyFile, ignored);
+}
 
 // InvalidInput: the folder of this file is one.
-Result<void> must_lie_outside_stores(const std::filesystem::path& file);
+inline Result<void> must_lie_outside_stores(const std::filesystem::path& file) {
+  if (!is_store_folder(file.has_parent_path() ? file.parent_path() : std::filesystem::path("."))) return {};
+  return invalid("lies among a store's own files: choose another folder").at(file.native());
+}
 
 }  // namespace relievo::storage

@@ -8,11 +8,8 @@
 #include "storage/record.h"
 
 namespace relievo::storage {
-namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c; }
-
-}  // namespace
+char small_letter(char c) { return c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c; }
 
 bool is_name(std::string_view text) {
   if (text.empty() || text.size() > kMaxNameBytes) return false;
@@ -24,7 +21,7 @@ bool is_name(std::string_view text) {
 }
 
 bool contains_name(std::string_view name, std::string_view part) {
-  const auto alike = [](char a, char b) { return lower(a) == lower(b); };
+  const auto alike = [](char a, char b) { return small_letter(a) == small_letter(b); };
   return part.empty() || std::search(name.begin(), name.end(), part.begin(), part.end(), alike) != name.end();
 }
 
@@ -39,7 +36,7 @@ std::string normal_name(std::string_view name) {
   const std::size_t first = name.find_first_not_of(' ');
   if (first == std::string_view::npos) return {};
   std::string normal(name.substr(first, name.find_last_not_of(' ') - first + 1));
-  for (char& c : normal) c = lower(c);
+  std::ranges::transform(normal, normal.begin(), small_letter);
   return normal;
 }
 

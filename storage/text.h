@@ -13,6 +13,9 @@ namespace relievo::storage {
 // 1 to kMaxNameBytes bytes of well-formed UTF-8 (Unicode 15, table 3-7), no control characters.
 bool is_name(std::string_view text);
 
+// An ASCII letter as a small one, all others as they are.
+char small_letter(char c);
+
 // `part` anywhere in `name`; ASCII letters in either case, all others as they are.
 bool contains_name(std::string_view name, std::string_view part);
 

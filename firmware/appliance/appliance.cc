@@ -53,14 +53,29 @@ Appliance::Appliance(Parts parts)
       machine_(parts.device.clock().now()),
       session_(parts.memory),
       grabber_(parts.device),
-      open_cameras_(grabber_, parts.device.preferred_mode(), parts.device.clock()),
+      open_cameras_([this](JobControl& control) {
+        return open_cameras(grabber_, device_.preferred_mode(), device_.clock(), control);
+      }),
       pose_(grabber_, session_, parts.device, parts.pool, parts.judge),
       grab_(grabber_, session_, parts.device, pose_),
       turn_(grabber_, session_, parts.device, pose_, parts.judge),
       stage_(parts.stages, session_, parts.pool, parts.device.clock()),
       head_(parts.stages, session_, parts.pool, parts.device.clock()),
-      keep_(parts.records, session_),
-      look_up_(parts.records),
+      keep_([this, &records = parts.records](const VisitRecord& record, KeptVisit& kept,
+                                             JobControl& control) -> Result<void> {
+        // Asked before the transaction begins: once it runs, it ends, whole or not at all.
+        if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
+        RELIEVO_ASSERT(session_.products().model.has_value());
+        RELIEVO_TRY_ASSIGN(kept, records.keep(record, *session_.products().model));
+        return {};
+      }),
+      look_up_([&records = parts.records](const RecordQuestion& question, RecordAnswer& answer,
+                                          JobControl&) -> Result<void> {
+        // Whom the records cannot answer for is somebody new; a code they cannot answer for is none.
+        answer.known = question.code.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode;
+        RELIEVO_TRY_ASSIGN(answer, records.look_up(question));
+        return {};
+      }),
       capture_(reports_, "capture"),
       worker_(reports_, "worker"),
       keeper_(reports_, "keeper") {
@@ -87,11 +102,6 @@ void Appliance::ask_records(RecordQuestion question) {
   answer_ = {ui::Known::Asking};
   looks_up_ = true;
   start_on_keeper(look_up_);
-}
-
-void Appliance::forget_answer() {
-  answer_ = {};
-  drops_answer_ = looks_up_;
 }
 
 // The job has ended; what it was asked goes, too.
@@ -138,10 +148,6 @@ void Appliance::calibrated_anew() {
   if (problem_ && problem_->code == Errc::NotCalibrated) problem_.reset();
 }
 
-JobThread& Appliance::thread_at(JobLane lane) {
-  return lane == JobLane::Capture ? capture_ : lane == JobLane::Worker ? worker_ : keeper_;
-}
-
 Result<void> Appliance::start_side_job(JobLane lane, Job& job) {
   if (lane == JobLane::Keeper && awaits_keeper_ != nullptr)
     return Error{Errc::InvalidState, "a visitor waits for this thread"};
@@ -149,19 +155,11 @@ Result<void> Appliance::start_side_job(JobLane lane, Job& job) {
   return {};
 }
 
-void Appliance::cancel_side_job(JobLane lane) {
-  if (side_jobs_[std::size_t(lane)] != 0) thread_at(lane).cancel();
-}
-
 void Appliance::end_side_job(JobLane lane) {
   if (side_jobs_[std::size_t(lane)] == 0) return;
   thread_at(lane).cancel();
   thread_at(lane).wait_until_idle();
   side_jobs_[std::size_t(lane)] = 0;
-}
-
-float Appliance::side_progress(JobLane lane) {
-  return side_jobs_[std::size_t(lane)] == 0 ? 0 : thread_at(lane).progress();
 }
 
 // What a job could not do: is the machine broken, or can another try or an advice help?

@@ -55,7 +55,10 @@ class Appliance {
   // Asks the records, while nobody's session is open; Asking until they have answered.
   void ask_records(RecordQuestion question);
   const RecordAnswer& answer() const { return answer_; }
-  void forget_answer();
+  void forget_answer() {
+    answer_ = {};
+    drops_answer_ = looks_up_;
+  }
   void ask(ui::Intent intent);
   // Ends a visit that the main thread cannot go on with.
   void give_up(const Error& error);
@@ -97,9 +100,13 @@ class Appliance {
   // thread is busy, or a visitor's question waits for it. A state that needs the thread stops such work and
   // waits for it to end; the keeper's is waited for between the turns, since a stick may hold it for long.
   Result<void> start_side_job(JobLane lane, Job& job);
-  void cancel_side_job(JobLane lane);
+  void cancel_side_job(JobLane lane) {
+    if (side_jobs_[std::size_t(lane)] != 0) thread_at(lane).cancel();
+  }
   void end_side_job(JobLane lane);  // waits until it has stopped; it is not reported any more
-  float side_progress(JobLane lane);
+  float side_progress(JobLane lane) {
+    return side_jobs_[std::size_t(lane)] == 0 ? 0 : thread_at(lane).progress();
+  }
   void on_side_report(std::function<void(JobLane, const std::optional<Error>&)> listener) {
     side_listener_ = std::move(listener);
   }
@@ -124,7 +131,9 @@ class Appliance {
   void await_commit();
   void stop_job();
   void stop_head();
-  JobThread& thread_at(JobLane lane);
+  JobThread& thread_at(JobLane lane) {
+    return lane == JobLane::Capture ? capture_ : lane == JobLane::Worker ? worker_ : keeper_;
+  }
   void heard(const JobReport& report);
   void heard_head(const JobReport& report);
   void failed(const Error& error);
@@ -142,14 +151,14 @@ class Appliance {
   Machine machine_;
   EnrolmentSession session_;
   StereoGrabber grabber_;
-  OpenCamerasJob open_cameras_;
+  FunctionJob open_cameras_;
   PoseJob pose_;
   GrabJob grab_;
   TurnJob turn_;
   StageJob stage_;
   HeadJob head_;
-  KeepJob keep_;
-  LookUpJob look_up_;
+  KeeperJob<VisitRecord, KeptVisit> keep_;           // puts a finished model away
+  KeeperJob<RecordQuestion, RecordAnswer> look_up_;  // while nobody's session is open
   VisitRecord record_;
   KeptVisit kept_;
   RecordAnswer answer_;

@@ -38,13 +38,13 @@ std::string line_of(std::string_view file_name, const toml::source_region& place
 }
 
 Error at_line(std::string_view file_name, const toml::node& node) {
-  return Error{Errc::InvalidInput,
-               "is no setting: write [matcher] name = \"refined\", or a number or word in a table of its own"}
+  return invalid(
+             "is no setting: write [matcher] name = \"refined\", or a number or word in a table of its own")
       .at(line_of(file_name, node.source()));
 }
 
 Error no_toml(std::string_view file_name, const toml::parse_error& error) {
-  return Error{Errc::InvalidInput, "is not TOML: correct this line"}.at(line_of(file_name, error.source()));
+  return invalid("is not TOML: correct this line").at(line_of(file_name, error.source()));
 }
 
 // `words`: a kind may be set by a word of its own too, matcher = "refined".
@@ -72,7 +72,7 @@ Result<void> apply(pipeline::AlgorithmSet& set, const std::vector<std::string>& 
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
-      return Error{Errc::InvalidInput, "is no setting: write KEY=VALUE, as in matcher=refined"}.at(setting);
+      return invalid("is no setting: write KEY=VALUE, as in matcher=refined").at(setting);
     }
     RELIEVO_TRY(set.set(setting.substr(0, equals), setting.substr(equals + 1)));
   }

@@ -63,7 +63,7 @@ inline constexpr std::size_t kKeptModelBytes = 40 * kMiB;
 inline constexpr std::size_t kTechnicianBytes =
     (14 + 9 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
 
-// Live pictures (capture/live_feed.h): the visitor's, two of a calibration, one of a relief; two cameras'
+// Live pictures (session/session.h): the visitor's, two of a calibration, one of a relief; two cameras'
 // that are watched, whose room is taken when they are.
 inline constexpr std::size_t kLiveSlots = 3;  // one is filled, one is the newest, one is on the screen
 constexpr std::size_t live_feed_bytes(std::size_t side_px) { return kLiveSlots * 3 * side_px * side_px; }
@@ -95,7 +95,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 inline constexpr milliseconds kTick{50};  // the main loop turns at least this often
 inline constexpr milliseconds kHangLimit{
-    8'000};  // the main loop has not turned: the program is ended (base/sentinel.h)
+    8'000};  // the main loop has not turned: the program is ended (base/process_memory.h)
 inline constexpr milliseconds kLivePause{30};  // between two live pictures: others need the processor, too
 inline constexpr microseconds kTriggerPulse{100};
 inline constexpr milliseconds kFrameWait{2000};         // from the trigger to both pictures

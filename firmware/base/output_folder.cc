@@ -65,10 +65,10 @@ Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
   if (error) return failed(target, error.value());  // no name, or the current folder has been removed
   if (folder.target_.filename().empty()) folder.target_ = folder.target_.parent_path();  // "out/"
   if (fs::exists(folder.target_, error) && !fs::is_directory(folder.target_, error)) {
-    return Error{Errc::InvalidInput, "is a file, not a folder: choose another name"}.at(target.native());
+    return invalid("is a file, not a folder: choose another name").at(target.native());
   }
   if (storage::is_store_folder(folder.target_))
-    return Error{Errc::InvalidInput, "holds a store or its key: choose another folder"}.at(target.native());
+    return invalid("holds a store or its key: choose another folder").at(target.native());
   const fs::path parent = folder.target_.parent_path();
   folder.made_parent_ = first_missing(parent);
   const std::string prefix = "." + folder.target_.filename().string() + ".part";
@@ -119,10 +119,7 @@ Result<void> OutputFolder::commit() {
 }
 
 Result<void> write_text(const fs::path& file, std::string_view text, const fs::path& place) {
-  if (const auto written = write_whole_file(file, std::as_bytes(std::span(text))); !written) {
-    return written.error().at(place.native());
-  }
-  return {};
+  return write_whole_file(file, std::as_bytes(std::span(text))).at(place.native());
 }
 
 }  // namespace relievo::firmware

@@ -13,7 +13,7 @@ Result<std::filesystem::path> store_folder(const std::filesystem::path& named) {
   if (data != nullptr && *data == '/') return std::filesystem::path(data) / "relievo";
   const char* home = std::getenv("HOME");
   if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".local/share/relievo";
-  return Error{Errc::InvalidInput, "there is no home to keep the store in: name it (--store DIR)"};
+  return invalid("there is no home to keep the store in: name it (--store DIR)");
 }
 
 std::string text_of(const ui::Settings& settings) {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdio>
 #include <memory>
 
-#include "firmware/calibrate/print_pattern.h"
+#include "firmware/calibrate/calibrate_command.h"
+#include "hal/base/words.h"
 #include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::firmware {
@@ -29,11 +29,7 @@ constexpr double kFooterMm = 10;      // for ruler and words, with the rim below
 constexpr double kRulerMm = 100;
 constexpr double kGapMm = 5;  // between ruler and words
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return printed("%.6g", value); }
 
 std::vector<std::string> words_of(const pipeline::BoardPattern& b) {
   const std::string corners = std::to_string(b.columns) + "x" + std::to_string(b.rows);
@@ -139,8 +135,7 @@ Result<PageFormat> page_format(std::string_view file_name) {
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   if (ending == "pdf") return PageFormat::Pdf;
   if (ending == "svg") return PageFormat::Svg;
-  return Error{Errc::InvalidInput, "the page is a PDF or an SVG: give a name that ends in .pdf or .svg"}.at(
-      file_name);
+  return invalid("the page is a PDF or an SVG: give a name that ends in .pdf or .svg").at(file_name);
 }
 
 Result<PatternPage> lay_out_pattern(const pipeline::BoardPattern& pattern) {
@@ -167,8 +162,7 @@ Result<PatternPage> lay_out_pattern(const pipeline::BoardPattern& pattern) {
       page.text = words_of(pattern);
       return page;
     }
-  return Error{Errc::InvalidInput,
-               "this board with its margin is larger than A0 paper; choose fewer or smaller squares"}
+  return invalid("this board with its margin is larger than A0 paper; choose fewer or smaller squares")
       .at(number(board_width) + " x " + number(board_height) + " mm");
 }
 

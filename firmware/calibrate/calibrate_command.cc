@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <memory_resource>
 #include <set>
@@ -16,6 +15,7 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
+#include "firmware/capture/face_light.h"
 #include "hal/base/words.h"
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -34,13 +34,7 @@ constexpr Colour kFirst{255, 60, 60};  // the order starts here
 constexpr Colour kCorner{60, 255, 60};
 constexpr Colour kLine{255, 200, 0};
 
-Colour pixel(const ImageView& image, int x, int y) {
-  const std::uint8_t* row = image.row(y);
-  if (image.format == PixelFormat::Rgb8) return {row[3 * x], row[3 * x + 1], row[3 * x + 2]};
-  // The upper byte of a little-endian 16 bit pixel is enough for a look.
-  const std::uint8_t grey = image.format == PixelFormat::Grey16 ? row[2 * x + 1] : row[x];
-  return {grey, grey, grey};
-}
+Colour pixel(const ImageView& image, int x, int y) { return colour_of(image.row(y), x, image.format); }
 
 void put(hal::Picture& picture, int x, int y, const Colour& colour) {
   if (x < 0 || y < 0 || x >= picture.width_px || y >= picture.height_px) return;
@@ -133,9 +127,7 @@ struct Report {
   const Path& folder;
 
   Result<void> picture(const std::string& name, const hal::Picture& picture) const {
-    const auto written = hal::write_picture(work.path() / name, picture.view());
-    if (!written) return written.error().at((folder / name).native());
-    return {};
+    return hal::write_picture(work.path() / name, picture.view()).at((folder / name).native());
   }
   Result<void> text(const std::string& name, std::string_view text) const {
     return write_text(work.path() / name, text, folder / name);
@@ -163,20 +155,12 @@ std::string last_name(const Path& folder) {
 
 using Files = std::map<std::string, Path>;
 
-std::optional<std::string> key_of(const Path& file, std::string_view side) {
-  const std::string extension = hal::lower_extension(file);
-  const std::string stem = file.stem().string();
-  if ((extension != ".png" && extension != ".jpg" && extension != ".jpeg") || !stem.starts_with(side))
-    return std::nullopt;
-  return stem.substr(side.size());
-}
-
+// Pictures of one side, by what follows it in their names.
 Result<void> sort_in(const Path& file, std::string_view side, Files& files) {
-  const auto key = key_of(file, side);
-  if (key && !files.emplace(*key, file).second)
-    return Error{Errc::InvalidInput, "two pictures with this name differ in their ending only; remove one"}
-        .at(file.native());
-  return {};
+  const std::string extension = hal::lower_extension(file), stem = file.stem().string();
+  const bool picture = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+  if (!picture || !stem.starts_with(side) || files.emplace(stem.substr(side.size()), file).second) return {};
+  return invalid("two pictures with this name differ in their ending only; remove one").at(file.native());
 }
 
 std::string plain_name(const std::string& key) {
@@ -188,16 +172,14 @@ std::string plain_name(const std::string& key) {
 // it plays no part.
 Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file,
                                        pipeline::CalibratorInput& input) {
-  auto corners = pipeline::look_for_board(picture.view(), input.pattern);
-  if (!corners) return corners.error().at(file.native());
-  if (corners->empty()) return corners;
+  RELIEVO_TRY_ASSIGN(auto corners, pipeline::look_for_board(picture.view(), input.pattern).at(file.native()));
+  if (corners.empty()) return corners;
   if (input.width_px == 0) {
     input.width_px = picture.width_px;
     input.height_px = picture.height_px;
   }
   if (picture.width_px != input.width_px || picture.height_px != input.height_px)
-    return Error{Errc::InvalidInput,
-                 "is not as large as the boards before; all must come from the same two cameras"}
+    return invalid("is not as large as the boards before; all must come from the same two cameras")
         .at(file.native());
   return corners;
 }
@@ -223,8 +205,7 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
     RELIEVO_TRY(tell("view " + view.name + ": " + finding(view)));
   }
   if (!any)
-    return Error{Errc::InvalidInput,
-                 "no pair shows a whole board with these inner corners; check --corners and the light"}
+    return invalid("no pair shows a whole board with these inner corners; check --corners and the light")
         .at(pairs.front().left.parent_path().native());
   return input;
 }
@@ -304,7 +285,7 @@ Result<void> check_calibration_output(const Path& output) {
     return Error{Errc::NotFound, "the folder for the calibration does not exist; make it first"}.at(
         folder.native());
   if (std::filesystem::is_directory(output, error))
-    return Error{Errc::InvalidInput, "is a folder; name a file such as rig.yml"}.at(output.native());
+    return invalid("is a folder; name a file such as rig.yml").at(output.native());
   return storage::must_lie_outside_stores(output);
 }
 
@@ -323,14 +304,13 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
   if (error) return Error{Errc::IoFailed, "the folder cannot be read"}.at(folder.native());
   if (left.empty() && right.empty())
     return Error{Errc::NotFound, "holds no pictures named left* and right* (png or jpg)"}.at(folder.native());
-  for (const auto& [key, file] : left)
-    if (!right.contains(key))
-      return Error{Errc::InvalidInput, "has no partner right* of the same name; add it or remove this one"}
-          .at(file.native());
-  for (const auto& [key, file] : right)
-    if (!left.contains(key))
-      return Error{Errc::InvalidInput, "has no partner left* of the same name; add it or remove this one"}.at(
-          file.native());
+  const auto all_in = [](const Files& files, const Files& others, Literal what) -> Result<void> {
+    for (const auto& [key, file] : files)
+      if (!others.contains(key)) return invalid(what).at(file.native());
+    return {};
+  };
+  RELIEVO_TRY(all_in(left, right, "has no partner right* of the same name; add it or remove this one"));
+  RELIEVO_TRY(all_in(right, left, "has no partner left* of the same name; add it or remove this one"));
   std::vector<PicturePairFiles> pairs;
   for (const auto& [key, file] : left) pairs.push_back({plain_name(key), file, right.at(key)});
   return pairs;
@@ -350,8 +330,7 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, cons
   RELIEVO_TRY(check_calibration_output(args.output));
   RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(args.pictures));
   if (pairs.size() > pipeline::kMaxBoardPairs)
-    return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(
-        args.pictures.native());
+    return invalid("holds more than 500 pairs; a few dozen are enough").at(args.pictures.native());
   RELIEVO_TRY_ASSIGN(pipeline::CalibratorInput input, read_views(pairs, pattern, tell));
   input.expected_baseline_mm = args.baseline_mm.value_or(0);
   if (!args.baseline_mm) input.in_use = today.in_use;
@@ -378,14 +357,13 @@ std::string history_heading() {
 
 std::string line_of(const storage::CalibrationInfo& c) {
   const std::string size = std::to_string(c.width_px) + "x" + std::to_string(c.height_px);
-  char line[200];
-  std::snprintf(line, sizeof line, "%c %4u  %s  %-9s  %-7s  %7s  %8s  %8s  %8s  %8s  %11s  %4d  ",
-                c.active ? '*' : ' ', c.revision, text_of(c.created_at).c_str(), size.c_str(),
-                kGrades[std::size_t(c.figures.grade)], number(c.rms_px, 3).c_str(),
-                number(c.figures.held_out_epipolar_px, 3).c_str(), number(c.epipolar_shift_px, 4).c_str(),
-                number(c.figures.depth_sigma_mm, 2).c_str(), number(c.figures.shape_sigma_mm, 2).c_str(),
-                number(c.baseline_mm, 2).c_str(), c.enrolments);
-  return line + c.note;
+  return printed("%c %4u  %s  %-9s  %-7s  %7s  %8s  %8s  %8s  %8s  %11s  %4d  ", c.active ? '*' : ' ',
+                 c.revision, text_of(c.created_at).c_str(), size.c_str(),
+                 kGrades[std::size_t(c.figures.grade)], number(c.rms_px, 3).c_str(),
+                 number(c.figures.held_out_epipolar_px, 3).c_str(), number(c.epipolar_shift_px, 4).c_str(),
+                 number(c.figures.depth_sigma_mm, 2).c_str(), number(c.figures.shape_sigma_mm, 2).c_str(),
+                 number(c.baseline_mm, 2).c_str(), c.enrolments) +
+         c.note;
 }
 
 }  // namespace relievo::firmware

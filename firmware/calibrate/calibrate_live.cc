@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/calibrate/calibrate_live.h"
+#include "firmware/calibrate/calibrate_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -85,13 +84,10 @@ std::string line_of_pair(const LiveState& s) {
 
 std::string line_of_end(const LiveState& s, Steady::duration busy, Steady::duration slowest) {
   const double seconds = std::chrono::duration<double>(busy).count();
-  char line[280];
-  std::snprintf(
-      line, sizeof line,
+  return printed(
       "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second, the slowest took %.0f ms",
       s.done() ? pipeline::name_of(s.end) : "no more pairs", s.views, s.pairs, s.error_mm, s.goal_mm,
       s.pairs / std::max(seconds, 1e-9), std::chrono::duration<double, std::milli>(slowest).count());
-  return line;
 }
 
 }  // namespace

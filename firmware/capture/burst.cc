@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/capture/burst.h"
+#include "firmware/capture/stereo_grabber.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ Result<Thumbnail> thumbnail(const ImageView& view, const FaceBox& box) {
   const int width = std::min(box.x_px + box.width_px, view.width_px) - left;
   const int height = std::min(box.y_px + box.height_px, view.height_px) - top;
   if (view.empty() || width < Thumbnail::kWidth || height < Thumbnail::kHeight)
-    return Error{Errc::InvalidInput, "the face is not in the picture: whether it moves cannot be seen"};
+    return invalid("the face is not in the picture: whether it moves cannot be seen");
   Thumbnail small;
   for (int v = 0; v < Thumbnail::kHeight; ++v)
     for (int u = 0; u < Thumbnail::kWidth; ++u) {
@@ -49,8 +49,7 @@ double movement(const Thumbnail& a, const Thumbnail& b) {
 
 Result<BurstResult> take_burst(StereoGrabber& grabber, StereoSlot& first, StereoSlot& second,
                                const BurstOptions& options, const std::atomic<bool>& cancelled) {
-  if (options.pairs < 1 || options.pairs > kMostBurstPairs)
-    return Error{Errc::InvalidInput, "a burst is of 1 to 16 pairs"};
+  if (options.pairs < 1 || options.pairs > kMostBurstPairs) return invalid("a burst is of 1 to 16 pairs");
   BurstResult result;
   StereoSlot* free = &first;
   StereoSlot* best = &second;

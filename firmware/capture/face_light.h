@@ -6,8 +6,10 @@
 // Errors: InvalidInput (no picture, or a box of which fewer than 16 x 16 pixels lie in it). Thread: any.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <vector>
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
@@ -19,6 +21,13 @@ namespace relievo::firmware {
 inline int level_of(const std::uint8_t* row, int x, PixelFormat format) {
   if (format == PixelFormat::Grey8) return row[x];
   return format == PixelFormat::Grey16 ? row[2 * x + 1] : row[3 * x + 1];  // the high byte; green
+}
+
+// Its red, green and blue.
+inline std::array<std::uint8_t, 3> colour_of(const std::uint8_t* row, int x, PixelFormat format) {
+  if (format == PixelFormat::Rgb8) return {row[3 * x], row[3 * x + 1], row[3 * x + 2]};
+  const auto grey = std::uint8_t(level_of(row, x, format));
+  return {grey, grey, grey};
 }
 
 // Pixels; the part of it outside the picture is not looked at.
@@ -102,6 +111,38 @@ class ExposureControl {
   State state_ = State::Metering;
   hal::Exposure exposure_;
   hal::ExposureLimits limits_;
+};
+
+// FocusPeaking: which places of a camera's picture are in focus, for a hand at the lens. An edge is in focus
+// where its second difference is a large share of the contrast around it, however high that is, and far above
+// the noise of places as bright. Memory stays from picture to picture. Thread: one at a time. Errors: none.
+
+class FocusPeaking {
+ public:
+  // Colours the pixels of `shown` (Rgb8, as LiveFeed::fill() makes it of `picture`) in which an edge is in
+  // focus. Gives the share of them: of the same scene the larger the better in focus.
+  double mark(const ImageView& picture, std::uint8_t* shown_rgb, int shown_width_px, int shown_height_px);
+  void wipe() { *this = {}; }  // the heap wipes what it takes back
+
+  static constexpr std::array<std::uint8_t, 3> kColour{90, 255, 60};
+
+ private:
+  static constexpr int kBlock = 8;
+  static constexpr std::size_t kLevels = 8;  // of brightness
+  struct Block {
+    float least = 255, most = 0, response = 0;  // of the smoothed picture; mean of the second differences
+  };
+  void smooth(const ImageView& picture);
+  void look_at_blocks();
+  void tell_noise();
+  int response(int x, int y) const;  // 16ths of a grey level
+  bool in_focus(int x, int y) const;
+
+  int width_ = 0, height_ = 0, across_ = 0, down_ = 0;
+  std::vector<std::uint16_t> smoothed_;  // 16ths of a grey level
+  std::vector<Block> blocks_;
+  std::array<float, kLevels> noise_{};  // mean second difference of plain places, by their brightness
+  std::vector<float> sorted_;
 };
 
 }  // namespace relievo::firmware

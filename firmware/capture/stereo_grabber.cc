@@ -189,21 +189,18 @@ Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found
   if (!left && !right) return {};
   const std::string at_left = calibrated.left + " → " + found.left,
                     at_right = calibrated.right + " → " + found.right;
-  if (!right)
-    return Error{Errc::NotCalibrated,
-                 "the left camera is not the one that was calibrated: put that one back, or calibrate again"}
-        .at(at_left);
-  if (!left)
-    return Error{Errc::NotCalibrated,
-                 "the right camera is not the one that was calibrated: put that one back, or calibrate again"}
-        .at(at_right);
   const bool exchanged = calibrated.left == found.right && calibrated.right == found.left;
-  return Error{
-      Errc::NotCalibrated,
-      exchanged
+  const Literal what =
+      !right
+          ? Literal(
+                "the left camera is not the one that was calibrated: put that one back, or calibrate again")
+      : !left
+          ? Literal(
+                "the right camera is not the one that was calibrated: put that one back, or calibrate again")
+      : exchanged
           ? Literal("the left and the right camera have changed places: swap their plugs, or calibrate again")
-          : Literal("neither camera is the one that was calibrated: put those back, or calibrate again")}
-      .at(at_left + "; " + at_right);
+          : Literal("neither camera is the one that was calibrated: put those back, or calibrate again");
+  return Error{Errc::NotCalibrated, what}.at(!right ? at_left : !left ? at_right : at_left + "; " + at_right);
 }
 
 GrabberOptions grabber_options(const hal::Device& device) {
@@ -327,8 +324,7 @@ Result<StereoFrame> StereoGrabber::grab_once(const Shot& shot) {
 
 Result<StereoFrame> StereoGrabber::pair_of(const Half& left, const Half& right) {
   if (left.view.width_px != right.view.width_px || left.view.height_px != right.view.height_px)
-    return Error{Errc::InvalidInput,
-                 "the two cameras give pictures of different sizes: set both to one mode"};
+    return invalid("the two cameras give pictures of different sizes: set both to one mode");
   const std::uint32_t offset = right.sequence - left.sequence;
   if (offset_ && *offset_ != offset) ++counts_.slipped;
   offset_ = offset;

@@ -3,11 +3,11 @@
 #include "firmware/checks/optical_check.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/checks/deviation_picture.h"
+#include "hal/base/words.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/pipeline.h"
@@ -212,11 +212,7 @@ Result<void> TargetMeter::measure_plate(const TargetPlace& place, const std::str
 }
 
 TargetShot series_of(const OpticalCheckOptions& options) {
-  TargetShot shot;
-  shot.targets = options.targets;
-  shot.seed = options.seed;
-  shot.scale = options.scale;
-  return shot;
+  return {.targets = options.targets, .seed = options.seed, .scale = options.scale};
 }
 
 }  // namespace
@@ -324,43 +320,37 @@ Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& cali
   return std::move(meter.report);
 }
 
-Result<void> OpticalCheckJob::run(JobControl& control) {
-  const auto shots = float(std::size_t(options_.boards) + options_.dumbbells.size() + options_.plates.size());
+Result<OpticalCheck> check_optically(const Photograph& photograph, const OpticalCheckOptions& options,
+                                     std::atomic<const char*>& at, JobControl& control) {
+  const auto shots = float(std::size_t(options.boards) + options.dumbbells.size() + options.plates.size());
   float done = 0;
   const auto each = [&] { control.progress.done.store(++done / shots); };
-  RELIEVO_TRY_ASSIGN(calibration_, calibrate_on_boards(photograph_, series_of(options_), options_.boards,
-                                                       control.cancelled, each));
-  measuring_.store(true);
-  RELIEVO_TRY_ASSIGN(
-      report_, measure_targets(calibration_.calibration, photograph_, options_, control.cancelled, each));
+  OpticalCheck check;
+  RELIEVO_TRY_ASSIGN(check.calibration, calibrate_on_boards(photograph, series_of(options), options.boards,
+                                                            control.cancelled, each));
+  at = "Measure";
+  RELIEVO_TRY_ASSIGN(check.report, measure_targets(check.calibration.calibration, photograph, options,
+                                                   control.cancelled, each));
   if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
-  return {};
+  return check;
 }
 
 std::vector<std::string> acceptance_table(const AcceptanceReport& report, const OpticalCheckOptions& options,
                                           const pipeline::CalibrationQuality& calibration) {
-  char text[200];
-  std::vector<std::string> lines;
-  std::snprintf(text, sizeof text, "calibrated on %d of %zu boards, pair rms %.3f px, baseline %.2f mm",
-                calibration.used, calibration.views.size(), calibration.pair_rms_px, calibration.baseline_mm);
-  lines.emplace_back(text);
-  lines.emplace_back("target         points    used    out  form/flat   size    rms (mm; out: discarded)");
+  std::vector<std::string> lines{
+      printed("calibrated on %d of %zu boards, pair rms %.3f px, baseline %.2f mm", calibration.used,
+              calibration.views.size(), calibration.pair_rms_px, calibration.baseline_mm),
+      "target         points    used    out  form/flat   size    rms (mm; out: discarded)"};
   for (const TargetReading& t : report.targets) {
-    char size[16] = "";
-    if (t.kind == TargetKind::Dumbbell) std::snprintf(size, sizeof size, "%+.3f", t.size_mm);
-    std::snprintf(text, sizeof text, "%-13s %7zu %7zu %6zu %8.3f %8s %8.3f", t.name.c_str(), t.measured,
-                  t.used, t.discarded, t.range_mm, size, t.rms_mm);
-    lines.emplace_back(text);
+    const std::string size = t.kind == TargetKind::Dumbbell ? printed("%+.3f", t.size_mm) : "";
+    lines.push_back(printed("%-13s %7zu %7zu %6zu %8.3f %8s %8.3f", t.name.c_str(), t.measured, t.used,
+                            t.discarded, t.range_mm, size.c_str(), t.rms_mm));
   }
-  for (const SpacingReading& s : report.spacings) {
-    std::snprintf(text, sizeof text, "%-13s spacing %+.3f mm", s.name.c_str(), s.error_mm);
-    lines.emplace_back(text);
-  }
-  for (const AcceptanceLine& line : report.lines(limits_at(options.scale))) {
-    std::snprintf(text, sizeof text, "%-20s %+.3f mm, limit %.3f mm: %s (%s)", line.measure.c_str(),
-                  line.value_mm, line.limit_mm, line.held() ? "pass" : "FAIL", line.where.c_str());
-    lines.emplace_back(text);
-  }
+  for (const SpacingReading& s : report.spacings)
+    lines.push_back(printed("%-13s spacing %+.3f mm", s.name.c_str(), s.error_mm));
+  for (const AcceptanceLine& line : report.lines(limits_at(options.scale)))
+    lines.push_back(printed("%-20s %+.3f mm, limit %.3f mm: %s (%s)", line.measure.c_str(), line.value_mm,
+                            line.limit_mm, line.held() ? "pass" : "FAIL", line.where.c_str()));
   return lines;
 }
 

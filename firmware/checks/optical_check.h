@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// OpticalCheckJob: the optical self-test from the first board to the last plate: calibrate, photograph
+// check_optically(): the optical self-test from the first board to the last plate: calibrate, photograph
 // every target, measure it. What comes out is judged by AcceptanceReport::lines().
 // Errors: the rig's, calibration's and stages' own, with the target's name; Cancelled.
-// Thread: made and read by main, run by the worker.
+// Thread: worker.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "firmware/jobs/job_thread.h"
@@ -44,10 +43,10 @@ enum class TargetKind : std::uint8_t { Board, Dumbbell, Plate };
 
 struct TargetShot {
   TargetKind kind = TargetKind::Board;
-  int number = 0;     // of its kind; a board's place follows from it and from `count`
-  int count = 0;      // boards in the series
-  TargetPlace place;  // of dumbbell and plate
-  OpticalTargets targets;
+  int number = 0;       // of its kind; a board's place follows from it and from `count`
+  int count = 0;        // boards in the series
+  TargetPlace place{};  // of dumbbell and plate
+  OpticalTargets targets{};
   std::uint32_t seed = 1;  // the rig's tolerances, the speckle, the noise
   double scale = 1;        // of the pictures' width and height
 };
@@ -146,22 +145,13 @@ Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& cali
                                          const std::atomic<bool>& cancelled,
                                          const std::function<void()>& each);
 
-class OpticalCheckJob final : public Job {
- public:
-  OpticalCheckJob(Photograph photograph, OpticalCheckOptions options)
-      : photograph_(std::move(photograph)), options_(std::move(options)) {}
-  Result<void> run(JobControl& control) override;
-  std::string_view stage() const { return measuring_.load() ? "Measure" : "Calibrate"; }  // any thread
-  const pipeline::CalibratorOutput& calibration() const { return calibration_; }
-  const AcceptanceReport& report() const { return report_; }
-
- private:
-  Photograph photograph_;
-  OpticalCheckOptions options_;
-  std::atomic<bool> measuring_{false};
-  pipeline::CalibratorOutput calibration_;
-  AcceptanceReport report_;
+struct OpticalCheck {
+  pipeline::CalibratorOutput calibration;
+  AcceptanceReport report;
 };
+// Both, one after the other; `at` becomes the name of what is under way.
+Result<OpticalCheck> check_optically(const Photograph& photograph, const OpticalCheckOptions& options,
+                                     std::atomic<const char*>& at, JobControl& control);
 
 // The optical self-test as report.json, and as lines for a terminal. The keys are part of the product.
 

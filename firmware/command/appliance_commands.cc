@@ -3,7 +3,6 @@
 //
 // selftest, memory, version: what the appliance says about itself.
 #include <algorithm>
-#include <cstdio>
 #include <new>
 #include <optional>
 #include <string>
@@ -21,24 +20,19 @@
 #include "firmware/service/access.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
+#include "hal/base/words.h"
 
 namespace relievo::firmware {
 namespace {
 
-std::string mib(std::size_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%8.1f MiB", double(bytes) / double(budget::kMiB));
-  return text;
-}
+std::string mib(std::size_t bytes) { return printed("%8.1f MiB", double(bytes) / double(budget::kMiB)); }
 
 void say_plan(Console& console) {
   using Plan = budget::MemoryPlan;
   constexpr std::size_t kCommon = std::size_t{1920} * 1200, kMost = budget::kMostFramePixels;
   constexpr Plan common = budget::plan_of_a_head(kCommon), most = budget::plan_of_a_head(kMost);
   const auto say = [&](const char* what, std::size_t at_common, std::size_t at_most) {
-    char name[24];
-    std::snprintf(name, sizeof name, "%-16s", what);
-    console.say(name + mib(at_common) + " " + mib(at_most));
+    console.say(printed("%-16s", what) + mib(at_common) + " " + mib(at_most));
   };
   console.say("at                1920 x 1200   2448 x 2048");
   say("pictures", common.frames, most.frames);
@@ -69,26 +63,30 @@ Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services) 
   if (!args.output.empty()) {
     RELIEVO_TRY_ASSIGN(OutputFolder made, OutputFolder::begin(args.output));
     folder.emplace(std::move(made));
-    options.show = [&](const std::string& name, const hal::Picture& picture) -> Result<void> {
-      const auto written = hal::write_picture(folder->path() / file_name(name), picture.view());
-      if (!written) return written.error().at((args.output / file_name(name)).string());
-      return {};
+    options.show = [&](const std::string& name, const hal::Picture& picture) {
+      return hal::write_picture(folder->path() / file_name(name), picture.view())
+          .at((args.output / file_name(name)).string());
     };
   }
   services.console.say("photographing " + std::to_string(options.boards) + " boards, " +
                        std::to_string(options.dumbbells.size()) + " dumbbells and " +
                        std::to_string(options.plates.size()) + " plates: a minute or two");
-  OpticalCheckJob job(services.photograph, options);
-  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.stage(); }));
-  for (const std::string& line : acceptance_table(job.report(), options, job.calibration().quality))
+  OpticalCheck check;
+  std::atomic<const char*> at{"Calibrate"};
+  FunctionJob job([&](JobControl& control) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(check, check_optically(services.photograph, options, at, control));
+    return {};
+  });
+  RELIEVO_TRY(run_watched(job, services.console, [&at] { return at.load(); }));
+  for (const std::string& line : acceptance_table(check.report, options, check.calibration.quality))
     services.console.say(line);
   if (folder) {
     RELIEVO_TRY(write_text(folder->path() / "report.json",
-                           acceptance_json(job.report(), options, job.calibration().quality), args.output));
+                           acceptance_json(check.report, options, check.calibration.quality), args.output));
     RELIEVO_TRY(folder->commit());
     services.console.say("report and pictures: " + args.output.string());
   }
-  return job.report().verdict(limits_at(options.scale));
+  return check.report.verdict(limits_at(options.scale));
 }
 
 // Both logs: the store's, which shows every edit, and the one the technician reads.
@@ -131,17 +129,13 @@ Result<void> run(const MemoryArgs& args, Services& services) {
     console.say("no visit of its kiosk has been measured yet");
     return {};
   }
-  char line[96];
-  std::snprintf(line, sizeof line, "the last %d visits at most, products and scratch together", most.visits);
-  console.say(line);
+  console.say(printed("the last %d visits at most, products and scratch together", most.visits));
   for (std::size_t stage = 0; stage < most.stages.size(); ++stage) {
     const std::string name(VisitCosts::name_of(ui::CostlyStage(stage)));
-    std::snprintf(line, sizeof line, "%-15s %8.1f MiB %6.2f s", name.c_str(), double(most.stages[stage].mib),
-                  double(most.stages[stage].seconds));
-    console.say(line);
+    console.say(printed("%-15s %8.1f MiB %6.2f s", name.c_str(), double(most.stages[stage].mib),
+                        double(most.stages[stage].seconds)));
   }
-  std::snprintf(line, sizeof line, "all of it       %8.1f MiB resident", double(most.resident_mib));
-  console.say(line);
+  console.say(printed("all of it       %8.1f MiB resident", double(most.resident_mib)));
   return {};
 }
 
@@ -175,10 +169,9 @@ Result<void> run(const StaffArgs& args, Services& services) {
     return {};
   }
   const char* role = args.technician ? "technician" : "operator";
-  if (const auto forgot = Access(*store, services.clock)
-                              .forget(args.technician ? ui::StaffRole::Technician : ui::StaffRole::Operator);
-      !forgot)
-    return forgot.error().at(role);
+  RELIEVO_TRY(Access(*store, services.clock)
+                  .forget(args.technician ? ui::StaffRole::Technician : ui::StaffRole::Operator)
+                  .at(role));
   RELIEVO_TRY(
       note(*store, folder, services.clock, "staff.pin_forgotten", role,
            args.technician ? ui::LogEvent::TechnicianPinForgotten : ui::LogEvent::OperatorPinForgotten));

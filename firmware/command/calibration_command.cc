@@ -14,8 +14,6 @@
 #include "firmware/base/settings.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/calibrate/calibrate_command.h"
-#include "firmware/calibrate/calibrate_live.h"
-#include "firmware/calibrate/print_pattern.h"
 #include "firmware/command/commands.h"
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -98,7 +96,7 @@ Result<void> calibrate_and_store(const Task& task, Services& services, const Cal
   };
   try {
     RigToday today;
-    today.made_at = text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
+    today.made_at = text_of(stored_time(services.clock.wall_now()));
     if (!task.store.empty()) {
       RELIEVO_TRY_ASSIGN(today.in_use, known_calibration(task.store, services));
     }

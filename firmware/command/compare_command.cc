@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
 #include "firmware/compare/set_run.h"
-#include "firmware/compare/suites.h"
 #include "firmware/jobs/job_thread.h"
-#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/comparison.h"
 #include "hal/base/whole_file.h"
+#include "hal/base/words.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -23,9 +22,7 @@ using compare::Run;
 
 const std::string kProduct = "Relievo " + std::string(kVersion);
 
-std::string now_of(const Services& services) {
-  return text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
-}
+std::string now_of(const Services& services) { return text_of(stored_time(services.clock.wall_now())); }
 
 Result<void> write_result(const OutputFolder& folder, const Path& place, const Result<std::string>& page,
                           const std::string& json) {
@@ -38,26 +35,22 @@ Result<void> write_result(const OutputFolder& folder, const Path& place, const R
 std::string summary_of(const Comparison& c, const Run& run) {
   const std::string name = c.pairs[run.pair].name + ", " + c.sets[run.set].name + ": ";
   if (!run.failure.empty() && !run.score) return name + "failed: " + run.failure;
-  char figures[200];
-  if (run.model) {
-    std::snprintf(
-        figures, sizeof figures,
+  std::string figures;
+  if (run.model)
+    figures = printed(
         "interior median %.4f mm, accuracy p95 %.4f mm, complete at 0.5 mm %.4f, outliers %.5f, match %.0f ms",
         run.model->interior_median_mm, run.model->accuracy_p95_mm, run.model->complete_half_mm,
         run.model->outliers_3mm, run.match_ms);
-  } else if (run.score) {
-    std::snprintf(
-        figures, sizeof figures,
+  else if (run.score)
+    figures = printed(
         "bad %.2f %% (of given %.2f %%, of seen by both %.2f %%), density %.2f %%, rms %.2f px, match %.0f ms",
         100 * run.score->bad_limit, 100 * run.score->bad_given, 100 * run.score->bad_seen,
         100 * run.score->density, run.score->rms_px, run.match_ms);
-  } else {
-    std::snprintf(figures, sizeof figures, "%zu of %zu matched, match %.0f ms", run.matches.accepted,
-                  run.matches.keypoints, run.match_ms);
-  }
-  char meshed[40] = "";
-  if (run.surface) std::snprintf(meshed, sizeof meshed, ", mesh %.0f ms", run.surface->mesh_ms);
-  return name + figures + meshed + (run.failure.empty() ? "" : "; failed: " + run.failure) +
+  else
+    figures = printed("%zu of %zu matched, match %.0f ms", run.matches.accepted, run.matches.keypoints,
+                      run.match_ms);
+  if (run.surface) figures += printed(", mesh %.0f ms", run.surface->mesh_ms);
+  return name + figures + (run.failure.empty() ? "" : "; failed: " + run.failure) +
          (run.no_surface.empty() ? "" : "; " + run.no_surface);
 }
 
@@ -74,8 +67,8 @@ std::string map_name(const Comparison& c, const Run& run) {
 Result<void> write_maps(const Comparison& c, const OutputFolder& folder, const Path& place) {
   for (const Run& run : c.runs) {
     if (run.map.values.empty()) continue;
-    const auto written = write_whole_file(folder.path() / map_name(c, run), compare::pfm_of(run.map));
-    if (!written) return written.error().at(place.string());
+    RELIEVO_TRY(
+        write_whole_file(folder.path() / map_name(c, run), compare::pfm_of(run.map)).at(place.string()));
   }
   return {};
 }
@@ -104,14 +97,11 @@ Result<void> run_dissertation(const CompareArgs& args, Services& services) {
   RELIEVO_TRY(write_result(folder, args.output, compare::dissertation_html(made, kProduct, now_of(services)),
                            compare::dissertation_json(made, now_of(services))));
   RELIEVO_TRY(folder.commit());
-  char line[200];
-  std::snprintf(line, sizeof line,
-                "table 1: baseline %.3f units, the dissertation's %.3f (true %.3f)\n"
-                "table 2: worst corner off by %.2f units, the dissertation's within %.0f",
-                made.rig.baseline_units, compare::recorded::kFoundBaselineUnits,
-                compare::recorded::kBaselineUnits, made.cube.worst_units,
-                compare::recorded::kWorstCornerUnits);
-  services.console.say(line);
+  services.console.say(printed(
+      "table 1: baseline %.3f units, the dissertation's %.3f (true %.3f)\n"
+      "table 2: worst corner off by %.2f units, the dissertation's within %.0f",
+      made.rig.baseline_units, compare::recorded::kFoundBaselineUnits, compare::recorded::kBaselineUnits,
+      made.cube.worst_units, compare::recorded::kWorstCornerUnits));
   for (const compare::Figure& figure : compare::figures_of(made))
     for (const Run* run : figure.runs)
       services.console.say("figure " + std::to_string(figure.number) + ": " + summary_of(figure.of, *run));
@@ -132,8 +122,9 @@ Result<void> run(const CompareArgs& args, Services& services) {
   std::function<Result<void>(const pipeline::FaceModel&)> keep_model;
   if (sets.size() == 1 && pairs.size() == 1)
     keep_model = [&](const pipeline::FaceModel& model) -> Result<void> {
-      const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Camera);
-      return files ? Result<void>{} : files.error().at(args.output.string());
+      RELIEVO_TRY(storage::write_model_files(model, folder.path(), storage::ExportFrame::Camera)
+                      .at(args.output.string()));
+      return {};
     };
   services.console.say(
       std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") +

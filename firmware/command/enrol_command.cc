@@ -7,6 +7,7 @@
 #include "firmware/appliance/appliance.h"
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/settings.h"
+#include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/kiosk/stored_visits.h"
@@ -145,8 +146,7 @@ Result<void> run(const EnrolArgs& args, Services& services) {
   VisitRecord record;
   record.name = std::string_view(args.subject);
   record.whose = subject;
-  record.consent = {kConsentWording, "en",
-                    std::chrono::floor<std::chrono::milliseconds>(device->clock().wall_now())};
+  record.consent = {kConsentWording, "en", stored_time(device->clock().wall_now())};
   record.calibration = calibrated.revision;
   record.calibration_note = calibrated.name;
   record.algorithms = stages.algorithms().to_text();

@@ -7,9 +7,7 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/base/process_memory.h"
-#include "firmware/base/sentinel.h"
 #include "firmware/command/commands.h"
-#include "firmware/kiosk/glass.h"
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/kiosk/script/script_player.h"
 #include "hal/picture_file.h"

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -8,7 +7,7 @@
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"
 #include "firmware/reconstruct/reconstruction.h"
-#include "firmware/service/further_models.h"
+#include "firmware/service/export_records.h"
 #include "hal/base/words.h"
 #include "hal/recording/capture_file.h"
 #include "storage/export/model_files.h"
@@ -26,9 +25,7 @@ Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Reco
                                                    : storage::ExportFrame::Head);
   options.version = kVersion;
   options.images = &images;
-  if (const auto files = storage::write_model_files(made.model(), folder.path(), options); !files) {
-    return files.error().at(args.output.string());
-  }
+  RELIEVO_TRY(storage::write_model_files(made.model(), folder.path(), options).at(args.output.string()));
   RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
                      write_further_models(made.model(), args.further, folder.path(), options.frame,
                                           args.output, interrupted()));
@@ -55,10 +52,8 @@ void say_of_work(const Reconstruction& made, Console& console) {
 void say_of_model(const pipeline::FaceModel& model, const std::vector<std::string>& further,
                   const Path& output, Console& console) {
   const pipeline::ModelQuality& q = model.quality;
-  char line[160];
-  std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm",
-                q.width_mm, q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
-  console.say(line);
+  console.say(printed("%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm", q.width_mm,
+                      q.height_mm, q.nose_relief_mm, q.median_sigma_mm));
   if (model.unjudged) console.say("not judged to be a face: " + detail_of(*model.unjudged));
   for (const std::string& one : further) console.say(one);
   console.say("model and report: " + output.string());
@@ -68,11 +63,10 @@ Result<void> reconstruct_recording(const ReconstructArgs& args, Services& servic
   ReconstructArgs named = args;
   RELIEVO_TRY_ASSIGN(named.pictures, hal::recorded_pictures(args.pictures[0]));
   if (named.pictures.size() > 2 * pipeline::kMostPoses)
-    return Error{Errc::InvalidInput, "seven pairs make a head; these are more"}.at(args.pictures[0].string());
+    return invalid("seven pairs make a head; these are more").at(args.pictures[0].string());
   if (named.pictures.size() > 2 &&
       (!args.save.empty() || !args.by_hand.empty() || args.algorithms.whole_view))
-    return Error{Errc::InvalidInput,
-                 "holds a head from several pairs: --save, --by-hand and --region are of one pair alone"}
+    return invalid("holds a head from several pairs: --save, --by-hand and --region are of one pair alone")
         .at(args.pictures[0].string());
   return run(named, services);
 }

@@ -65,7 +65,7 @@ Result<void> make_words(storage::Store& store, Services& services) {
     services.console.say("Type word " + std::to_string(asked + 1) + ":");
     std::string typed;
     if (!(std::cin >> typed) || typed != sheet[asked])
-      return Error{Errc::InvalidInput, "that was another word: nothing was changed, start again"};
+      return invalid("that was another word: nothing was changed, start again");
   }
   RELIEVO_TRY(store.keep_recovery_words(words));
   services.console.say("These words open the store from now on; an older sheet does not.");

@@ -18,7 +18,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
-#include "firmware/service/further_models.h"
+#include "firmware/service/export_records.h"
 #include "hal/base/whole_file.h"
 #include "hal/base/wiped_text.h"
 #include "pipeline/recognition/recognition_images.h"
@@ -88,7 +88,7 @@ Result<std::optional<WipedText>> passphrase_in(const Path& file) {
   RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMostBytes));
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   while (text.ends_with('\n') || text.ends_with('\r')) text.remove_suffix(1);
-  if (text.empty()) return Error{Errc::InvalidInput, "holds no passphrase"}.at(file.string());
+  if (text.empty()) return invalid("holds no passphrase").at(file.string());
   return std::optional(WipedText(text));
 }
 
@@ -102,9 +102,7 @@ Result<void> write_sealed(const SubjectsArgs& args, std::vector<storage::BundleF
   RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
   storage::AgeTo to = storage::Passphrase{passphrase ? passphrase->view() : std::string_view()};
   if (!passphrase) {
-    const auto recipient = storage::age_recipient(args.recipient);
-    if (!recipient) return recipient.error().at(args.recipient);
-    to = *recipient;
+    RELIEVO_TRY_ASSIGN(to, storage::age_recipient(args.recipient).at(args.recipient));
   }
   RELIEVO_TRY_ASSIGN(const auto bundle, storage::bundle_bytes(files));
   RELIEVO_TRY_ASSIGN(const auto sealed, storage::age_seal(to, bundle));
@@ -147,9 +145,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   }
   RELIEVO_TRY(go_on(args));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
-  if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
-    return files.error().at(args.output.string());
-  }
+  RELIEVO_TRY(storage::write_model_files(model, folder.path(), options).at(args.output.string()));
   RELIEVO_TRY_ASSIGN(
       const std::vector<std::string> further,
       write_further_models(model, args.further, folder.path(), options.frame, args.output, interrupted()));
@@ -173,7 +169,7 @@ Result<std::vector<storage::BundleFile>> read_copy(const SubjectsArgs& args) {
   if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kAge)) {
     RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
     if (!passphrase && args.identity.empty())
-      return Error{Errc::InvalidInput, "is sealed: name the key (--identity) or --passphrase-file"};
+      return invalid("is sealed: name the key (--identity) or --passphrase-file");
     if (passphrase) {
       RELIEVO_TRY_ASSIGN(bytes, storage::age_open(storage::Passphrase{passphrase->view()}, bytes));
     } else {
@@ -190,10 +186,9 @@ Result<std::vector<storage::BundleFile>> read_copy(const SubjectsArgs& args) {
 Result<void> believe(storage::Store& store, const SigningKey& key, const SubjectsArgs& args) {
   RELIEVO_TRY_ASSIGN(const storage::Signed own, store.sign({}));
   if (key == own.by || text_of(key) == args.signer) return {};
-  return Error{
-      Errc::InvalidInput,
-      "signed this copy, not this store: compare it with what 'relievo store check' says on the other "
-      "device, then name it (--signed-by)"}
+  return invalid(
+             "signed this copy, not this store: compare it with what 'relievo store check' says on the other "
+             "device, then name it (--signed-by)")
       .at(text_of(key));
 }
 
@@ -206,7 +201,7 @@ Result<void> import(const SubjectsArgs& args, const Path& folder, Services& serv
   RELIEVO_TRY_ASSIGN(const SigningKey key, check_bundle(*files));
   const auto record = std::ranges::find(*files, storage::kPersonFile, &storage::BundleFile::name);
   if (record == files->end())
-    return Error{Errc::InvalidInput, "is not in this copy: it is of an older version, and only for reading"}
+    return invalid("is not in this copy: it is of an older version, and only for reading")
         .at(storage::kPersonFile);
   const auto person = storage::decode_person(record->bytes);
   if (!person) return named(person.error());
@@ -215,9 +210,8 @@ Result<void> import(const SubjectsArgs& args, const Path& folder, Services& serv
   if (!args.same_name) {
     RELIEVO_TRY_ASSIGN(const auto there, store->subjects({person->name, 0, 1}));
     if (!there.empty())
-      return Error{
-          Errc::InvalidInput,
-          "has this name already: if that is somebody else, say so (--same-name); nothing was changed"}
+      return invalid(
+                 "has this name already: if that is somebody else, say so (--same-name); nothing was changed")
           .at(number_of(there.front().id));
   }
   const auto taken = store->add_person(*person);
@@ -232,17 +226,16 @@ Result<void> check_subject(std::string_view name_or_number) {
   // With a space around it a name looks like another's in every list, and is not found by that.
   if (storage::is_name(name_or_number) && !name_or_number.starts_with(' ') && !name_or_number.ends_with(' '))
     return {};
-  return Error{
-      Errc::InvalidInput,
-      "no name to enrol by: give 1 to 200 bytes of UTF-8 without control characters, and no space around it; "
-      "somebody stored under such a name has a number, as in '#3' ('relievo subjects list' shows it)"}
+  return invalid(
+             "no name to enrol by: give 1 to 200 bytes of UTF-8 without control characters, and no space around it; "
+             "somebody stored under such a name has a number, as in '#3' ('relievo subjects list' shows it)")
       .at("--subject");
 }
 
 Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
                                                          std::string_view name_or_number) {
   if (name_or_number.empty())  // to the store it would mean everybody
-    return Error{Errc::InvalidInput, "an empty word is nobody: give a name, a number as in '#3', or a code"};
+    return invalid("an empty word is nobody: give a name, a number as in '#3', or a code");
   const auto number = number_in(name_or_number);
   // Whoever types a code means its owner: as a name it would stand readable in every list.
   if (number || is_receipt(name_or_number)) {
@@ -252,8 +245,7 @@ Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
   }
   RELIEVO_TRY_ASSIGN(const auto found, store.subjects({std::string(name_or_number), 0, 2}));
   if (found.size() > 1)
-    return Error{Errc::InvalidInput,
-                 "several have this name: use the number, as in '#3' ('relievo subjects list' shows it)"}
+    return invalid("several have this name: use the number, as in '#3' ('relievo subjects list' shows it)")
         .at(name_or_number);
   return found.empty() ? std::nullopt : std::optional(found.front().id);
 }

@@ -213,8 +213,8 @@ Result<Dissertation> do_again(const DissertationOrder& order, const Simulate& si
                                           {order.whole_view, order.limit_px, false}, control));
   // Of what was never rectified there is nothing to draw.
   if (made.rules.pairs.front().width_px == 0)
-    return Error{Errc::InvalidInput, "so no set could be tried on this pair: choose another"}.at(
-        made.rules.runs.front().failure);
+    return invalid("so no set could be tried on this pair: choose another")
+        .at(made.rules.runs.front().failure);
   at = "figure 17";
   RELIEVO_TRY_ASSIGN(made.face, compared(person ? *person : *order.pair, order.face_sets,
                                          {!person && order.whole_view, order.limit_px}, control));

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "firmware/base/boot_memory.h"
-#include "firmware/measure/match_figures.h"
-#include "firmware/measure/truth_view.h"
+#include "firmware/measure/comparison.h"
+#include "firmware/measure/measurement.h"
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/result.h"
 #include "hal/picture_file.h"
@@ -41,20 +41,17 @@ Result<void> read_truth(const Path& truth, const CompareArgs& args, ComparedPair
   std::error_code ignored;
   if (!std::filesystem::is_directory(truth, ignored)) {
     if (!args.rectified && std::filesystem::exists(truth, ignored))
-      return Error{
-          Errc::InvalidInput,
-          "is a disparity map, which fits rectified pictures: give --rectified, or a folder of 'relievo simulate face --truth'"}
+      return invalid(
+                 "is a disparity map, which fits rectified pictures: give --rectified, or a folder of 'relievo simulate face --truth'")
           .at(truth.string());
     RELIEVO_TRY_ASSIGN(pair.disparities, read_disparity_truth(truth, args.truth_scale));
     const DisparityMap& map = pair.disparities->map;
     if (map.width_px == pair.pictures.left.width_px && map.height_px == pair.pictures.left.height_px)
       return {};
-    return Error{Errc::InvalidInput, "has another size than the left picture: give the truth of this pair"}
-        .at(truth.string());
+    return invalid("has another size than the left picture: give the truth of this pair").at(truth.string());
   }
   if (args.rectified)
-    return Error{Errc::InvalidInput,
-                 "is a folder of the simulated rig, whose pictures are not rectified: give --calibration"}
+    return invalid("is a folder of the simulated rig, whose pictures are not rectified: give --calibration")
         .at(truth.string());
   RELIEVO_TRY_ASSIGN(pair.view, measure::TruthView::read(truth));
   RELIEVO_TRY_ASSIGN(pair.head, measure::read_true_surface(truth / "head.ply"));

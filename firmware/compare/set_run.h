@@ -9,15 +9,17 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/arguments/command_line.h"
 #include "firmware/compare/page/compare_page.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/measure/comparison.h"
-#include "firmware/measure/disparity_map.h"
-#include "firmware/measure/triangle_grid.h"
-#include "firmware/reconstruct/picture_pair.h"
+#include "firmware/measure/measurement.h"
+#include "firmware/reconstruct/reconstruction.h"
+#include "hal/base/result.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/model/face_model.h"
 
@@ -54,7 +56,7 @@ using Simulate = std::function<Result<void>(const SimulateArgs& args, const Path
 
 struct DissertationOrder {
   std::optional<ComparedPair> pair;
-  std::vector<NamedSet> rule_sets, face_sets;  // suites.h
+  std::vector<NamedSet> rule_sets, face_sets;  // below
   bool whole_view = false;
   double limit_px = 1;
   Path work;  // a folder of its own, for simulated pictures
@@ -66,5 +68,26 @@ struct DissertationOrder {
 // (no set could rectify the pair).
 Result<Dissertation> do_again(const DissertationOrder& order, const Simulate& simulate,
                               std::atomic<const char*>& at, JobControl& control);
+
+// Sets that belong together, by name. A suite is made from the algorithms that this program has; that of the
+// dissertation is more than sets: do_again() makes a report of its own of it.
+// Errors: NotFound (no such suite; the error's place lists them). Thread: any.
+inline constexpr std::string_view kDissertation = "dissertation";
+
+// Figures 6 to 12 (Bardsley 2004): SSD, ZMNCC, ZMNCC with the first rule, with the first two and so on, and
+// last what is the default here.
+std::vector<SetWords> dissertation_rule_sets();
+// Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
+std::vector<SetWords> dissertation_face_sets();
+
+// From words to sets of algorithms: all start from --algorithms, relief=off (nobody is refused as a picture
+// of a face unless --set says so) and --set; then come, in this order, the suites, the sets of files and
+// those of the command line. None named: one set, called by its matcher. Errors: NotFound and InvalidInput,
+// each with the set's name and the word: a set that cannot be made, two sets of one name, more than
+// kMostSets. Thread: main.
+inline constexpr std::size_t kMostSets = 64;
+
+Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args);
+Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& base, const std::vector<SetWords>& words);
 
 }  // namespace relievo::firmware::compare

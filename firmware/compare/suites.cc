@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/compare/suites.h"
+#include "firmware/compare/set_run.h"
 
 #include <algorithm>
 #include <array>
@@ -17,9 +17,7 @@ Result<SetWords> words_of(const std::string& text) {
   SetWords words;
   words.name = text.substr(0, std::min(colon, text.size()));
   if (colon == std::string::npos || words.name.find_first_not_of(' ') == std::string::npos)
-    return Error{Errc::InvalidInput,
-                 "is no set: write \"NAME: KEY=VALUE KEY=VALUE\", as in \"SSD: matcher=ssd\""}
-        .at(text);
+    return invalid("is no set: write \"NAME: KEY=VALUE KEY=VALUE\", as in \"SSD: matcher=ssd\"").at(text);
   std::string_view rest = std::string_view(text).substr(colon + 1);
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
@@ -160,13 +158,12 @@ Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& algorithms, const s
   AlgorithmArgs base = algorithms;
   base.settings.insert(base.settings.begin(), "relief=off");
   if (all.size() > kMostSets)
-    return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(
-        std::to_string(all.size()));
+    return invalid("sets are too many for one page: at most 64").at(std::to_string(all.size()));
   std::vector<NamedSet> sets;
   for (const SetWords& words : all) {
     const auto same = [&words](const NamedSet& set) { return set.name == words.name; };
     if (std::ranges::any_of(sets, same))
-      return Error{Errc::InvalidInput, "is the name of two sets: give each its own"}.at(words.name);
+      return invalid("is the name of two sets: give each its own").at(words.name);
     RELIEVO_TRY_ASSIGN(NamedSet set, named_set(base, words));
     sets.push_back(std::move(set));
   }

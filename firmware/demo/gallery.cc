@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "firmware/kiosk/code/qr_code.h"
-#include "firmware/technician/show/surface_difference.h"
+#include "firmware/technician/show/technician_pictures.h"
 
 namespace relievo::firmware {
 namespace {

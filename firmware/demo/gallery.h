@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/kiosk/kiosk.h"
 #include "ui/technician/technician_view.h"
 #include "ui/ui.h"
 
@@ -50,5 +51,12 @@ void lend(const ui::ViewState& review, ui::TechnicianStage stage, ui::Technician
 
 // Results beside each other, beginning with that of `view`.
 void add_comparisons(const Lender& all, const ui::ViewState& review, ui::TechnicianView view);
+
+// Screenshots: every screen in every language, size and text size, for people to look at; and one
+// contact sheet for each of these. What is shown is real: the simulated rig is enrolled once.
+// Files: DIR/SIZE_TEXT_LANGUAGE/NN_screen.png, beside it NN_screen.json (its nodes: role, name, place), and
+// DIR/sheet_SIZE_TEXT_LANGUAGE.png; with `--showpiece`, the head for the page that invites.
+// Thread: main, with a current GL context. Errors: IoFailed, MediaFull; what the enrolment says.
+Result<void> take_screenshots(const KioskArgs& args, Kiosk& kiosk, Console& console);
 
 }  // namespace relievo::firmware

@@ -12,7 +12,7 @@
 #include <memory>
 #include <random>
 
-#include "firmware/calibrate/calibrate_live.h"
+#include "firmware/calibrate/calibrate_command.h"
 #include "hal/picture_file.h"
 #include "pipeline/model/live_advice.h"
 

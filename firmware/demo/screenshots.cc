@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/demo/screenshots.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -243,9 +241,8 @@ class Photographer {
     std::string names;
     for (const std::string& name : others_) names += (names.empty() ? "pages: " : " ") + name;
     if (!names.empty()) console.say(names);
-    return Error{
-        Errc::InvalidInput,
-        "nothing is called as --only asks: SIZE_TEXT_LANGUAGE or SIZE_TEXT_LANGUAGE/PAGE, a part of each"};
+    return invalid(
+        "nothing is called as --only asks: SIZE_TEXT_LANGUAGE or SIZE_TEXT_LANGUAGE/PAGE, a part of each");
   }
 
  private:

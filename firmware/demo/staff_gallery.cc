@@ -154,10 +154,10 @@ ServiceView at(StaffRole role) {
 }
 
 void add_touch(const Lender& all) {
-  static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12, false, false, 0, 0, false},
-      kTest{ui::TouchStep::Test, {}, 4, 9, false, true, 90, 0.004, false},
-      kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, true, 90, 0.0041, false},
-      kMisfit{ui::TouchStep::Rest, ui::TouchVerdict::Misfit, 0, 0, true, false, 0, 0, false};
+  static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12},
+      kTest{ui::TouchStep::Test, {}, 4, 9, false, ui::TouchFit{{}, 0.004, 90}},
+      kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, ui::TouchFit{{}, 0.0041, 90}},
+      kMisfit{ui::TouchStep::Rest, ui::TouchVerdict::Misfit, 0, 0, true};
   ServiceView touch = at(StaffRole::Technician);
   for (const auto& [name, view] :
        {std::pair{"staff_touch_cross", &kCross}, std::pair{"staff_touch_test", &kTest},

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "firmware/demo/gallery.h"
-#include "firmware/technician/algorithm_controller.h"
+#include "firmware/technician/test_capture.h"
 
 namespace relievo::firmware {
 namespace {
@@ -42,28 +42,26 @@ constexpr std::array<std::string_view, 40> kCalibrationCells{
     "px",    "1920 × 1200", "1920 × 1200", ""};
 
 ui::TechnicianResult made_up_result() {
-  ui::TechnicianResult r;
-  r.there = true;
-  r.name = "2026-03-12_09-14-07";
-  r.seconds = {1.42F, 0.18F, 0.31F, 0.42F, 0.24F};
-  r.made = {148220, 141873, 97342, 1048576};
-  r.arena_peak_mib = 147;
-  r.matches = 171004;
-  r.accepted = 148220;
-  constexpr std::array<std::string_view, 3> kRules{"similarity", "uniqueness", "continuity"};
-  constexpr std::array<std::uint64_t, 3> kRejected{17310, 2204, 3270};
-  constexpr std::array<std::array<std::uint8_t, 3>, 3> kColours{
-      {{31, 99, 173}, {214, 96, 6}, {134, 60, 156}}};
-  r.rule_count = 3;
-  for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kRules[i], kColours[i], kRejected[i]};
-  r.median_sigma_mm = 0.061F;
-  r.sigma_percent = {0,    1,    14,   29,   22,   13,   8, 4, 3, 2, 1, 1,   0.5F,
-                     0.5F, 0.4F, 0.2F, 0.1F, 0.1F, 0.1F, 0, 0, 0, 0, 0, 0.1F};
-  r.coverage = 0.957F;
-  r.epipolar_px = 0.082F;
-  r.photo_correlation = 0.972F;
-  r.photo_windows = 2318;
-  return r;
+  return {.there = true,
+          .name = "2026-03-12_09-14-07",
+          .algorithms = {},
+          .failure = {},
+          .seconds = {1.42F, 0.18F, 0.31F, 0.42F, 0.24F},
+          .made = {148220, 141873, 97342, 1048576},
+          .arena_peak_mib = 147,
+          .matches = 171004,
+          .accepted = 148220,
+          .rules = {{{"similarity", {31, 99, 173}, 17310},
+                     {"uniqueness", {214, 96, 6}, 2204},
+                     {"continuity", {134, 60, 156}, 3270}}},
+          .rule_count = 3,
+          .median_sigma_mm = 0.061F,
+          .coverage = 0.957F,
+          .sigma_percent = {0,    1,    14,   29,   22,   13,   8, 4, 3, 2, 1, 1,   0.5F,
+                            0.5F, 0.4F, 0.2F, 0.1F, 0.1F, 0.1F, 0, 0, 0, 0, 0, 0.1F},
+          .epipolar_px = 0.082F,
+          .photo_correlation = 0.972F,
+          .photo_windows = 2318};
 }
 
 TechnicianView ready(const ui::ViewState& review) {

@@ -102,6 +102,15 @@ class FunctionJob final : public Job {
   std::function<Result<void>(JobControl&)> work_;
 };
 
+// Done when a job leaves, also by what a library throws.
+template <typename Work>
+struct Finally {
+  Work work;
+  ~Finally() { work(); }
+};
+template <typename Work>
+Finally(Work) -> Finally<Work>;
+
 class JobThread {
  public:
   // The name is the system's for this thread (top -H): 15 letters at most.

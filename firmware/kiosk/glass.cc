@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/kiosk/glass.h"
+#include "firmware/kiosk/kiosk.h"
 
 namespace relievo::firmware {
 

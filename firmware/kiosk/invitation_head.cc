@@ -21,7 +21,7 @@ Result<std::unique_ptr<InvitationHead>> InvitationHead::read(const std::filesyst
   RELIEVO_TRY_ASSIGN(auto model, storage::decode_model(std::as_bytes(std::span(bytes)), &piece->memory_));
   RELIEVO_TRY_ASSIGN(const hal::Picture skin, hal::read_picture(folder / kInvitationHeadTexture));
   if (skin.format != PixelFormat::Rgb8)
-    return Error{Errc::InvalidInput, "is no colour picture"}.at((folder / kInvitationHeadTexture).string());
+    return invalid("is no colour picture").at((folder / kInvitationHeadTexture).string());
   model.texture.width_px = skin.width_px;
   model.texture.height_px = skin.height_px;
   model.texture.rgb.resize(skin.bytes.size());

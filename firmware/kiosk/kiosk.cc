@@ -13,6 +13,7 @@
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
+#include "firmware/base/wall_time.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/recording/capture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -154,14 +155,14 @@ std::unique_ptr<TestCapture> Kiosk::make_test_capture(const KioskArgs& args, Ser
       return hold(held);
     };
   }
-  return std::make_unique<TestCapture>(TestCapture::Parts{
-      *appliance_, staff_->side_tasks(), *device_, *stages_, *pool_, *store_, staff_->log(), std::move(show),
-      [this](const pipeline::StereoCalibration& calibration) {
-        revision_ = calibration.revision;
-        judge_->use(calibration);
-        appliance_->grabber().expect(calibration.cameras);
-        appliance_->calibrated_anew();
-      }});
+  return std::make_unique<TestCapture>(
+      TechnicianParts{*appliance_, staff_->side_tasks(), *device_, *stages_, *pool_, *store_, staff_->log(),
+                      std::move(show), [this](const pipeline::StereoCalibration& calibration) {
+                        revision_ = calibration.revision;
+                        judge_->use(calibration);
+                        appliance_->grabber().expect(calibration.cameras);
+                        appliance_->calibrated_anew();
+                      }});
 }
 
 VisitRecord Kiosk::record_of(const ui::VisitRequest& request) const {
@@ -171,8 +172,7 @@ VisitRecord Kiosk::record_of(const ui::VisitRequest& request) const {
   if (known) record.whose = appliance_->answer().record;
   record.renews = request.enrolment_kind == ui::EnrolmentKind::Renewal;
   record.consent = {view_.consent != nullptr ? view_.consent->version : std::string(request.wording),
-                    std::string(request.language),
-                    std::chrono::floor<std::chrono::milliseconds>(request.agreed_at)};
+                    std::string(request.language), stored_time(request.agreed_at)};
   record.calibration = revision_;
   record.calibration_note = "store revision " + std::to_string(revision_);
   record.algorithms = stages_->algorithms().to_text();
@@ -224,7 +224,7 @@ void Kiosk::look() {
   if (!cameras) view_.calibration_note = exchanged_;
   view_.service = &staff_->view();
   // Whoever says that the clock is right knows better than a record that was made while it was ahead.
-  const auto now = std::chrono::floor<std::chrono::milliseconds>(view_.wall_now);
+  const auto now = stored_time(view_.wall_now);
   if (staff_->take_clock_confirmed()) newest_record_ = std::min(newest_record_, now);
   view_.out_of_order = out_of_order();
   staff_->clock_is(view_.out_of_order != ui::Trouble::Clock, newest_record_);

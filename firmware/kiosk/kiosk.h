@@ -12,6 +12,7 @@
 // Errors of open(): those of device, store, fonts and words.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -21,16 +22,39 @@
 #include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_scanner.h"
 #include "firmware/kiosk/invitation_head.h"
-#include "firmware/kiosk/receipt_slip.h"
 #include "firmware/kiosk/stored_visits.h"
 #include "firmware/kiosk/take_home.h"
-#include "firmware/kiosk/voice.h"
 #include "firmware/services/services.h"
 #include "firmware/staff/staff_controller.h"
 #include "firmware/work/pipeline_stages.h"
+#include "hal/speaker.h"
+#include "ui/display.h"
+#include "ui/render/renderer.h"
+#include "ui/speech/narrator.h"
 #include "ui/ui.h"
 
 namespace relievo::firmware {
+
+// Voice: the kiosk's speaker. It plays the sounds that tell everybody what has happened, hands on what the
+// pages say while somebody wants to hear it, and is silent at once when nobody does. Thread: main, which it
+// never holds up. Errors: none; without a speaker it is silent.
+class Voice {
+ public:
+  explicit Voice(std::unique_ptr<hal::Speaker> speaker) : speaker_(std::move(speaker)) {}
+
+  // What there is to hear with.
+  void look(ui::ViewState& view);
+  // After a frame was made. True: something is being said to the visitor, who is there as long.
+  bool turn(ui::Ui& ui, const ui::ViewState& view);
+
+ private:
+  void sound(const ui::Ui& ui, const ui::ViewState& view);
+
+  std::unique_ptr<hal::Speaker> speaker_;
+  ui::Cues cues_;
+  hal::Instant guided_{};
+  bool heard_ = false;
+};
 
 class Kiosk {
  public:
@@ -111,6 +135,29 @@ class Kiosk {
   std::unique_ptr<CodeScanner> code_scanner_;
   std::unique_ptr<ReceiptSlip> slip_;
   std::unique_ptr<TakeHome> take_home_;
+};
+
+// Glass: the kiosk's pages on a display. It draws what is not on the screen yet: a page that stands still
+// leaves the processor to the pipeline. A GL context that the driver loses is made anew and drawn into again:
+// no visit ends for it. Thread: main.
+class Glass {
+ public:
+  // The display outlives it. Errors: the renderer's.
+  static Result<Glass> on(ui::Display& display);
+
+  // True: there is a new frame, to be shown. Errors: LibraryFailed (the driver gives no context any more).
+  Result<bool> draw(Kiosk& kiosk, std::chrono::steady_clock::time_point now, bool wanted);
+  ui::Renderer& renderer() { return *renderer_; }
+
+ private:
+  Glass(ui::Display& display, std::unique_ptr<ui::Renderer> renderer)
+      : display_(&display), renderer_(std::move(renderer)) {}
+  static constexpr std::chrono::milliseconds kAtLeastEvery{500};  // a window may have been covered
+  ui::Display* display_;
+  std::unique_ptr<ui::Renderer> renderer_;
+  ui::DrawList drawn_;
+  int width_ = 0, height_ = 0;
+  std::chrono::steady_clock::time_point drawn_at_{};
 };
 
 }  // namespace relievo::firmware

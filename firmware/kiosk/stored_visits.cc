@@ -9,6 +9,7 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
+#include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
 #include "firmware/report/report.h"
 #include "hal/base/whole_file.h"
@@ -58,9 +59,9 @@ Result<void> CodeGuard::was_right() {
 
 Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::FaceModel& model) {
   RELIEVO_TRY(disk_has_room(folder_, record.least_room_mib));
-  const auto now = std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now());
+  const auto now = stored_time(clock_.wall_now());
   if (now < record.consent.given_at - std::chrono::minutes(1))
-    return Error{Errc::InvalidInput, "the clock went back after the person had agreed: set it"};
+    return invalid("the clock went back after the person had agreed: set it");
   Report report{record.calibration_note, record.algorithms,     record.stages, {},
                 peak_rss_bytes(),        model.quality,         record.drift,  {},
                 model.landmarks,         model.head_from_camera};

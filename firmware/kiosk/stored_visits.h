@@ -15,7 +15,7 @@
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
-#include "firmware/work/visit_records.h"
+#include "firmware/work/jobs.h"
 #include "hal/clock.h"
 #include "storage/store.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/comparison.h"
 
 #include <algorithm>
 #include <bit>
@@ -75,8 +75,7 @@ Result<DisparityMap> read_map(const std::filesystem::path& file, double scale) {
   if (hal::lower_extension(file) == ".pfm") return read_pfm(file);
   RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(file));
   if (picture.format == PixelFormat::Rgb8)
-    return Error{Errc::InvalidInput, "is a colour picture: a disparity map is grey, or a PFM"}.at(
-        file.string());
+    return invalid("is a colour picture: a disparity map is grey, or a PFM").at(file.string());
   DisparityMap map(picture.width_px, picture.height_px);
   const ImageView view = picture.view();
   for (int y = 0; y < map.height_px; ++y) {
@@ -127,7 +126,7 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
   const bool sane =
       magic == "Pf" && width > 0 && height > 0 && width <= kMostSidePx && height <= kMostSidePx && scale != 0;
   if (!sane || rest.size() != 4 * std::size_t(width) * std::size_t(height))
-    return Error{Errc::InvalidInput, "is no whole PFM of one channel"}.at(file.string());
+    return invalid("is no whole PFM of one channel").at(file.string());
   auto map = DisparityMap(int(width), int(height));
   storage::ByteReader from(storage::bytes_of(rest));
   for (int y = map.height_px - 1; y >= 0; --y)
@@ -204,7 +203,7 @@ Result<DisparityTruth> read_disparity_truth(const std::filesystem::path& file, d
   DisparityTruth truth;
   RELIEVO_TRY_ASSIGN(truth.map, read_map(file, scale));
   if (std::ranges::all_of(truth.map.values, [](float d) { return std::isnan(d); }))
-    return Error{Errc::InvalidInput, "holds no disparity at all: is it the truth's file?"}.at(file.string());
+    return invalid("holds no disparity at all: is it the truth's file?").at(file.string());
   truth.seen = seen_by_both(truth.map);
   return truth;
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/measure/triangle_grid.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "firmware/measure/measurement.h"
 
 namespace relievo::firmware::measure {
 namespace {

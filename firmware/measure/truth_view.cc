@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/measure/truth_view.h"
+#include "firmware/measure/measurement.h"
 
 #include <algorithm>
 #include <charconv>
@@ -18,10 +18,7 @@ constexpr std::size_t kVertexBytes = 12;
 constexpr std::size_t kTriangleBytes = 13;  // a count of 3, three numbers
 constexpr float kFarthestMm = 1e5F;         // no head stands there: the file is damaged
 
-Error bad() {
-  return Error{Errc::InvalidInput,
-               "is no head of the simulated rig: 'relievo simulate face --truth' writes one"};
-}
+Error bad() { return invalid("is no head of the simulated rig: 'relievo simulate face --truth' writes one"); }
 
 // Takes `text` off the front.
 bool skip(std::string_view& rest, std::string_view text) {
@@ -42,8 +39,7 @@ constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
 constexpr int kInteriorHalfWindowPx = 11;
 
 Error bad(const std::filesystem::path& file) {
-  return Error{Errc::InvalidInput,
-               "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
+  return invalid("is no truth of the simulated rig: 'relievo simulate face --truth' writes one")
       .at(file.string());
 }
 
@@ -88,9 +84,7 @@ Result<Surface> parse_true_surface(std::string_view rest) {
 
 Result<Surface> read_true_surface(const std::filesystem::path& file) {
   RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxFileBytes));
-  auto surface = parse_true_surface({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  if (!surface) return surface.error().at(file.string());
-  return surface;
+  return parse_true_surface({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).at(file.string());
 }
 
 Result<TruthView> TruthView::read(const std::filesystem::path& folder) {

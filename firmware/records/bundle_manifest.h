@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What an exported copy of a person says of itself, beside its files:
-//   person.record   all the store has of them, for another store (storage/person_record.h)
+//   person.record   all the store has of them, for another store (storage/record.h)
 //   manifest.json   whose it is, when it was made and by which version, from which consent; the SHA-256 of
 //                   each; the number by which the operator may offer the portrait (link_number_of)
 //   signature.json  by which key the manifest is signed (Ed25519, over all its bytes), in hexadecimal

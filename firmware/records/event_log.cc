@@ -10,7 +10,7 @@
 #include "firmware/base/wall_time.h"
 #include "hal/base/whole_file.h"
 #include "hal/base/words.h"
-#include "ui/screens/service/fault_words.h"
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::firmware {
 namespace {
@@ -83,8 +83,7 @@ void EventLog::fault(const Error& error) {
 }
 
 void EventLog::put(std::string text, const std::string& behind, bool fault) {
-  text.insert(0, text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) +
-                     std::string(fault ? kFault : kGap));
+  text.insert(0, text_of(stored_time(clock_.wall_now())) + std::string(fault ? kFault : kGap));
   if (text.size() > kTextBytes) text.resize(kTextBytes);
   if (text.size() + behind.size() <= kLineBytes) text += behind;
   const std::lock_guard lock(mutex_);

@@ -41,7 +41,7 @@ BundleFile signature_of(const storage::Signed& made) {
                  {{"of", kManifest}, {"by", hex_of(made.by)}, {"ed25519", hex_of(made.signature)}});
 }
 
-Error wrong(const std::string& file, Literal what) { return Error{Errc::InvalidInput, what}.at(file); }
+Error wrong(const std::string& file, Literal what) { return invalid(what).at(file); }
 
 Result<const BundleFile*> find(std::span<const BundleFile> files, const char* name) {
   const auto found = std::ranges::find(files, name, &BundleFile::name);
@@ -96,8 +96,7 @@ Result<void> write_manifest(storage::Store& store, const CopyOf& of, const fs::p
   RELIEVO_TRY_ASSIGN(Sums sums, sums_of(folder));
   RELIEVO_TRY_ASSIGN(const auto files, manifest_files(store, of, std::move(sums)));
   for (const storage::BundleFile& file : files)
-    if (const auto written = write_whole_file(folder / file.name, file.bytes); !written)
-      return written.error().at(place.native());
+    RELIEVO_TRY(write_whole_file(folder / file.name, file.bytes).at(place.native()));
   return {};
 }
 
@@ -110,7 +109,7 @@ Result<std::vector<storage::BundleFile>> read_bundle_folder(const fs::path& fold
     if (name.starts_with('.')) continue;  // what a computer leaves behind
     if (!storage::is_plain_name(name) || files.size() == kMostFiles ||
         !fs::is_regular_file(fs::symlink_status(entry->path(), error)))
-      return Error{Errc::InvalidInput, "is no file as it was exported: nothing was taken"}.at(name);
+      return invalid("is no file as it was exported: nothing was taken").at(name);
     RELIEVO_TRY_ASSIGN(auto bytes, read_whole_file(entry->path(), left));
     left -= bytes.size();
     files.push_back({name, std::move(bytes)});

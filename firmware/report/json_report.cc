@@ -6,7 +6,6 @@
 #include <array>
 #include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <span>
 
@@ -15,6 +14,7 @@
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/version.h"
 #include "firmware/report/report.h"
+#include "hal/base/words.h"
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {
@@ -104,25 +104,17 @@ nlohmann::ordered_json aliveness_json(const Report& report) {
 }  // namespace
 
 std::string line_of(const StageRecord& stage) {
-  char line[128];
-  std::snprintf(line, sizeof line, "%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64, int(stage.name.size()),
-                stage.name.data(), double(stage.took.count()) * 1e-6, stage.in, stage.out);
-  return line;
+  return printed("%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64, int(stage.name.size()), stage.name.data(),
+                 double(stage.took.count()) * 1e-6, stage.in, stage.out);
 }
 
 std::string line_of(std::size_t pair, const pipeline::RegisteredPose& pose) {
-  char line[160];
-  if (!pose.joined) {
-    std::snprintf(line, sizeof line,
-                  "Pair %-7zu left out: it meets none of the others, or the skin moved by more than 1.5 mm",
-                  pair);
-    return line;
-  }
-  std::snprintf(
-      line, sizeof line,
+  if (!pose.joined)
+    return printed("Pair %-7zu left out: it meets none of the others, or the skin moved by more than 1.5 mm",
+                   pair);
+  return printed(
       "Pair %-7zu turned by %.1f degrees, %.3f mm rms from the others; placed to %.3f degrees, %.3f mm", pair,
       pipeline::turned_deg(pose.first_from_pose.rotation), pose.rms_mm, sigma_deg(pose), sigma_mm(pose));
-  return line;
 }
 
 std::string line_of(const pipeline::DriftJudgement& drift) {
@@ -131,25 +123,19 @@ std::string line_of(const pipeline::DriftJudgement& drift) {
 
 std::string line_of_motion(double motion_px) {
   if (motion_px < kWorthSayingPx) return {};
-  char line[192];
-  std::snprintf(
-      line, sizeof line,
+  return printed(
       "Motion       the face moved between the two exposures, %.2f px rms: what moved is less certain. "
       "Hold still, or expose both cameras together",
       motion_px);
-  return line;
 }
 
 std::string line_of_light(const pipeline::Overexposure& white) {
   const bool left = white.left >= white.right;
   const double share = left ? white.left : white.right;
   if (share < kWorthSayingShare) return {};
-  char line[192];
-  std::snprintf(
-      line, sizeof line,
+  return printed(
       "Light        %.0f %% of the face is white in the %s picture and cannot be measured there: less light, or a shorter exposure",
       100 * share, left ? "left" : "right");
-  return line;
 }
 
 std::uint64_t peak_rss_bytes() {

@@ -116,8 +116,8 @@ Result<Attempt> Access::attempt(std::string_view pin) {
 Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
   const bool digits = std::all_of(pin.begin(), pin.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits || pin.size() < ui::kLeastPinDigits || pin.size() > ui::kMostPinDigits)
-    return Error{Errc::InvalidInput, "a PIN has four to eight digits"};
-  if (is_simple(pin)) return Error{Errc::InvalidInput, "this PIN is too easy to guess: choose another"};
+    return invalid("a PIN has four to eight digits");
+  if (is_simple(pin)) return invalid("this PIN is too easy to guess: choose another");
   RELIEVO_TRY_ASSIGN(const Record record, read());
   RELIEVO_TRY_ASSIGN(
       const bool taken,

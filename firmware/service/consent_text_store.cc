@@ -23,7 +23,7 @@ constexpr const char *kHostFile = "operator.txt", *kSignFile = "sign.png", *kLin
 constexpr std::size_t kMostHostBytes = 80, kMostSignBytes = 1'000'000, kMostLinkBytes = 200;
 constexpr int kMostSignPx = 1024;
 
-Error wrong(const fs::path& file, Literal what) { return Error{Errc::InvalidInput, what}.at(file.string()); }
+Error wrong(const fs::path& file, Literal what) { return invalid(what).at(file.string()); }
 
 // A name that can stand in a record.
 bool is_version(const std::string& name) { return name.size() <= 40 && storage::is_plain_name(name); }
@@ -153,13 +153,11 @@ Result<std::optional<ui::ConsentTexts>> take_consent(const fs::path& stick, cons
   RELIEVO_TRY_ASSIGN(const auto found, read_consent(stick / "consent"));
   if (!found) return Error{Errc::NotFound, "the stick has no folder named consent"};
   if (now && found->version < now->version)
-    return Error{Errc::InvalidInput,
-                 "comes before the version in force: give the new one a name that comes after it"}
+    return invalid("comes before the version in force: give the new one a name that comes after it")
         .at(found->version);
   if (now && found->version == now->version) {
     if (*found == *now) return std::optional<ui::ConsentTexts>{};
-    return Error{Errc::InvalidInput,
-                 "is in force already, with other words: give the new one a name of its own"}
+    return invalid("is in force already, with other words: give the new one a name of its own")
         .at(found->version);
   }
   Result<OutputFolder> folder = OutputFolder::begin(own / found->version);

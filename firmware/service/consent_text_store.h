@@ -19,8 +19,8 @@
 #include "firmware/service/side_tasks.h"
 #include "hal/base/result.h"
 #include "hal/removable_media.h"
-#include "ui/view/consent_text.h"
 #include "ui/view/staff_views.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "firmware/base/wall_time.h"
 #include "firmware/service/record_filter.h"
 
 namespace relievo::firmware {
@@ -70,8 +71,7 @@ void RetentionWatch::turn(const ui::Settings& settings) {
   side_tasks_.send(
       JobLane::Keeper,
       [this, erased, days](JobControl& control) -> Result<void> {
-        return erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()), days,
-                             log_, control, *erased);
+        return erase_expired(store_, stored_time(clock_.wall_now()), days, log_, control, *erased);
       },
       [this, erased](const std::optional<Error>& error) {
         if (error && error->code == Errc::Cancelled) next_ = {};  // a visitor came in between
@@ -101,7 +101,7 @@ void DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) 
       [this, setting, value](JobControl&) -> Result<void> {
         // Whoever chooses how long records are kept has looked at the clock.
         if (setting == ui::Setting::KeepDays)
-          RELIEVO_TRY(trust_clock(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())));
+          RELIEVO_TRY(trust_clock(store_, stored_time(clock_.wall_now())));
         ui::Settings written = now_;  // without those before it that could not be written
         written.set(setting, value);
         return store_.set_setting(kDeviceSetting, text_of(written));

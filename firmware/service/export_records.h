@@ -10,9 +10,11 @@
 // meanwhile), Cancelled, NotFound, IoFailed (outcome_of_export() says what it means), the store's.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,12 +22,23 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/records/bundle_manifest.h"
+#include "hal/base/result.h"
 #include "hal/clock.h"
 #include "hal/removable_media.h"
+#include "pipeline/model/face_model.h"
+#include "storage/export/format/export_mesh.h"
 #include "storage/store.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::firmware {
+
+// What may stand beside a model's files: a lighter model (light.*), a solid for printing (solid.*). Each
+// leaves a line that says what it is. Errors: those of lighten(), make_solid() and the files, with `place`
+// for what the caller was asked for; Cancelled, of a solid. That takes memory of its own while it is made
+// (budget::kSolidBytes). Thread: any.
+Result<std::vector<std::string>> write_further_models(
+    const pipeline::FaceModel& model, const FurtherModels& wanted, const std::filesystem::path& folder,
+    storage::ExportFrame frame, const std::filesystem::path& place, const std::atomic<bool>& cancelled);
 
 enum class ExportStep : std::uint8_t { Find, Load, Note, Write, ReadBack, LetGo, Again };
 
@@ -37,7 +50,7 @@ struct ExportTrace {
   std::optional<Error> left_out;  // why the last one that has nothing to export is not there
 };
 
-// `further`: what stands beside each portrait's files (service/further_models.h).
+// `further`: what stands beside each portrait's files.
 Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace);

@@ -10,9 +10,13 @@
 // Thread: main. Errors: told in ServiceView::work.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/consent_text_store.h"
@@ -23,6 +27,7 @@
 #include "hal/device.h"
 #include "storage/store.h"
 #include "ui/view/service.h"
+#include "ui/view/staff_views.h"
 #include "ui/view/view_state.h"
 
 namespace relievo::firmware {
@@ -67,16 +72,39 @@ class PageController {
   PageServices& services_;
 };
 
-// What lies behind the pages (page/).
+// What lies behind the pages (page/). device_controller(): behind Menu, Recovery, SelfTest, Trigger, Log.
+std::unique_ptr<PageController> device_controller(PageServices& services, ui::StaffPage page);
 std::unique_ptr<PageController> health_controller(PageServices& services);
-std::unique_ptr<PageController> log_controller(PageServices& services);
 std::unique_ptr<PageController> records_controller(PageServices& services);
-std::unique_ptr<PageController> recovery_controller(PageServices& services);
-std::unique_ptr<PageController> self_test_controller(PageServices& services);
-std::unique_ptr<PageController> status_controller(PageServices& services);
-std::unique_ptr<PageController> trigger_controller(PageServices& services);
 
 // What an error means to who asked.
 ui::Outcome outcome_of(const Error& error);
+
+// Behind the page of health: the memory plan (budget.h) against what the last visits used at most, the disk's
+// room, temperatures where the kernel tells them (/sys/class/thermal), the last faults. Looked at anew every
+// two seconds, on the keeper: a disk or a sensor may be slow; while the page is closed every ten minutes, so
+// that it can show the last day. Thread: main.
+struct Sensor {
+  std::string name;
+  double celsius = 0;
+};
+// All of `thermal` (/sys/class/thermal); none where there are none.
+std::vector<Sensor> read_temperatures(const std::filesystem::path& thermal);
+
+// The last 24 hours of a figure, from the start on. The newest stands at the end.
+class DayRing {
+ public:
+  static constexpr std::chrono::minutes kEvery{10};
+  static constexpr std::size_t kKept = std::chrono::hours(24) / kEvery;
+  DayRing() { all_.fill(std::numeric_limits<float>::quiet_NaN()); }
+  void add(double value) {
+    std::shift_left(all_.begin(), all_.end(), 1);
+    all_.back() = float(value);
+  }
+  std::span<const float> values() const { return all_; }
+
+ private:
+  std::array<float, kKept> all_{};
+};
 
 }  // namespace relievo::firmware

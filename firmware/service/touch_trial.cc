@@ -58,25 +58,21 @@ void TouchTrial::touched(ui::TouchPoint at, ui::TouchPoint cross) {
     return;
   }
   if (view_.step != TouchStep::Test) return;
-  const ui::TouchPoint met = candidate_(at);
+  const ui::TouchPoint met = view_.fit->map(at);
   if (std::abs(met.x - cross.x) > kMet || std::abs(met.y - cross.y) > kMet) return end(TouchVerdict::Missed);
-  keep(candidate_, TouchVerdict::Kept);
+  keep(view_.fit->map, TouchVerdict::Kept);
 }
 
 void TouchTrial::fit() {
   const auto found = ui::fit_touch_map(crosses_);
   if (!found) return end(TouchVerdict::Misfit);
-  candidate_ = found->map;
-  view_.measured = true;
-  view_.turned_deg = found->turned_deg;
-  view_.off = found->off;
-  view_.mirrored = found->mirrored;
+  view_.fit = *found;
   view_.step = TouchStep::Test;
 }
 
 void TouchTrial::take_plain() {
   if (takes_fingers()) return;
-  view_.measured = false;
+  view_.fit.reset();
   keep({}, TouchVerdict::Plain);
 }
 

@@ -56,7 +56,7 @@ class TouchTrial {
   SideTasks& side_tasks_;
   EventLog& log_;
   const hal::Clock& clock_;
-  ui::TouchMap map_, candidate_, saved_;
+  ui::TouchMap map_, saved_;
   int writes_ = 0;  // on their way
   std::vector<ui::TouchedCross> crosses_;
   hal::Instant until_{};

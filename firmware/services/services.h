@@ -11,7 +11,7 @@
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/base/console.h"
-#include "firmware/calibrate/calibrate_live.h"
+#include "firmware/calibrate/calibrate_command.h"
 #include "firmware/checks/optical_check.h"
 #include "hal/clock.h"
 #include "hal/device.h"
@@ -57,7 +57,7 @@ struct Services {
   // The simulated person turns the head so far (+ to the picture's right), a moment later; may be empty.
   // Nothing where the device is no simulated rig.
   std::function<void(hal::Device& device, double yaw_deg)> turn_head{};
-  // Pictures of every page, for people to look at (firmware/demo/screenshots.h); may be empty.
+  // Pictures of every page, for people to look at (firmware/demo/gallery.h); may be empty.
   std::function<Result<void>(const KioskArgs& args, Kiosk& kiosk, Console& console)> take_screenshots{};
   // How often this thread has taken memory from the heap; may be empty.
   std::function<long()> allocations{};

@@ -27,7 +27,6 @@
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/base/budget.h"
-#include "firmware/capture/live_feed.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/machine/machine.h"
 #include "hal/base/arena.h"
@@ -41,8 +40,41 @@
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/stereo_frame.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
+
+// LiveFeed: the newest small picture of the person, from the capture thread to the screen. Three buffers: one
+// is being filled, one is the newest, one is on the screen; nobody waits.
+// Thread: fill() and publish() capture, newest() main; wipe() main, and only while no job runs.
+
+class LiveFeed {
+ public:
+  // `side_px`: the longer side of its pictures at most. Room for budget::kLiveSidePx is taken at once; for
+  // more with the first larger picture (bad_alloc); it stays, for the screen may still hold a view of it.
+  explicit LiveFeed(int side_px = budget::kLiveSidePx);
+  // A copy of the picture, shrunk by a whole number.
+  ImageView fill(const ImageView& picture);
+  // What fill() made, to draw into before it is published.
+  std::uint8_t* filled() { return slots_[filling_].rgb.data(); }
+  // With what fill() made.
+  void publish(ui::LiveView guidance);
+  // Its picture is valid until the next newest(). Number 0: none since the last wipe.
+  ui::LiveView newest();
+  void wipe();
+
+ private:
+  struct Slot {
+    std::vector<std::uint8_t> rgb;
+    ui::LiveView live;
+  };
+  int side_px_;
+  std::array<Slot, budget::kLiveSlots> slots_;
+  std::mutex mutex_;
+  std::size_t filling_ = 0, newest_ = 1, shown_ = 2;
+  bool fresh_ = false;
+  std::uint32_t count_ = 0;
+};
 
 // StagePictures: small square pictures of the face for the screen: the photograph, then one for each stage
 // that is done. Fixed memory, part of the session: wiped with it. Thread: who takes or makes it draws its
@@ -79,6 +111,10 @@ class StagePictures {
   std::array<One, kStagePictures> pictures_;
   std::uint32_t count_ = 0;
 };
+
+// A picture's pixels, row by row without padding: how many bytes, and a copy of them.
+std::size_t packed_bytes(const ImageView& view);
+ImageView packed(const ImageView& view, std::byte* to);
 
 // SidePairs: the pairs that show a head from its sides, on their way from the capture thread to the worker,
 // and the room where the worker keeps what each pose comes to. A pair waits in the room of its own pose;

@@ -22,12 +22,12 @@ ui::LogEvent chosen_by(StaffRole role) {
 }  // namespace
 
 Result<void> SignIn::look() {
-  view_.demanded = parts_.demands_set_up;
+  view_.demanded = services_.device.is_live();
   RELIEVO_TRY_ASSIGN(view_.set_up, access_.is_set_up());
   RELIEVO_TRY_ASSIGN(forgotten_, access_.forgotten());
   RELIEVO_TRY_ASSIGN(const auto wait, access_.wait());
   RELIEVO_TRY_ASSIGN(view_.locked, access_.is_locked());
-  wait_until_ = parts_.clock.now() + wait;
+  wait_until_ = services_.device.clock().now() + wait;
   return {};
 }
 
@@ -35,7 +35,7 @@ void SignIn::opened(StaffPage page) {
   forget();
   view_.wrong = view_.clock_right = view_.clock_refused = view_.consent_right = false;
   view_.failed.reset();
-  if (page == StaffPage::FirstStart) parts_.consent.opened();
+  if (page == StaffPage::FirstStart) services_.consent.opened();
   clock_moved_ = std::chrono::minutes(0);
   home_.reset();
   view_.fault = PinFault::None;
@@ -64,7 +64,7 @@ void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
   if (clock && request.as<ui::SetClock>() != nullptr) set_clock();
   if (!first) return;
   if (const auto* home = request.as<ui::ChooseHome>()) home_ = home->language;
-  if (request.as<ui::TakeConsentText>() != nullptr) parts_.consent.take();
+  if (request.as<ui::TakeConsentText>() != nullptr) services_.consent.take();
   if (request.as<ui::ConfirmConsentText>() != nullptr) view_.consent_right = true;
 }
 
@@ -72,24 +72,25 @@ void SignIn::set_clock() {
   view_.clock_right = true;
   if (view_.clock_refused) return;
   if (clock_moved_.count() == 0) return confirm_clock();
-  const Result<void> set = parts_.set_clock
-                               ? parts_.set_clock(parts_.clock.wall_now() + clock_moved_)
+  const Result<void> set = set_clock_
+                               ? set_clock_(services_.device.clock().wall_now() + clock_moved_)
                                : Result<void>(Error{Errc::Unsupported, "this board's clock cannot be set"});
   clock_moved_ = std::chrono::minutes(0);
   view_.clock_right = set.has_value();
   view_.clock_refused = !set;
-  if (!set) return parts_.log.fault(set.error());
-  parts_.log.say(ui::LogEvent::ClockSet);
+  if (!set) return services_.log.fault(set.error());
+  services_.log.say(ui::LogEvent::ClockSet);
   confirm_clock();
 }
 
 void SignIn::confirm_clock() {
   clock_confirmed_ = true;
-  parts_.side_tasks.send(
+  services_.side_tasks.send(
       JobLane::Keeper,
-      [&store = parts_.store, now = std::chrono::floor<std::chrono::milliseconds>(parts_.clock.wall_now())](
-          JobControl&) { return trust_clock(store, now); },
-      [&log = parts_.log](const std::optional<Error>& error) {
+      [&store = services_.store, now = stored_time(services_.device.clock().wall_now())](JobControl&) {
+        return trust_clock(store, now);
+      },
+      [&log = services_.log](const std::optional<Error>& error) {
         if (error) log.fault(*error);
       },
       SideTasks::Whose::Device);
@@ -97,7 +98,7 @@ void SignIn::confirm_clock() {
 
 void SignIn::check(std::string_view pin) {
   view_.checking = true;
-  parts_.side_tasks.ask(
+  services_.side_tasks.ask(
       JobLane::Keeper,
       [this, kept = std::make_shared<WipedText>(pin)](JobControl&) {
         const auto answer = access_.attempt(kept->view());
@@ -106,17 +107,17 @@ void SignIn::check(std::string_view pin) {
       },
       [this, visit = visit_](const Result<Attempt>& answer) {
         view_.checking = false;
-        if (!answer) parts_.log.fault(answer.error());
+        if (!answer) services_.log.fault(answer.error());
         const Attempt attempt = answer ? *answer : Attempt();
-        wait_until_ = parts_.clock.now() + attempt.wait;
+        wait_until_ = services_.device.clock().now() + attempt.wait;
         view_.locked = attempt.locked;
-        if (attempt.wrong) parts_.log.say(ui::LogEvent::WrongPin);
+        if (attempt.wrong) services_.log.say(ui::LogEvent::WrongPin);
         if (visit != visit_) return;  // whoever typed it has gone: the next one at the lock is another
         view_.failed = answer ? std::nullopt : std::optional(answer.error().code);
         view_.wrong = attempt.wrong;
         entered_ = attempt.role;
-        if (entered_ == StaffRole::Technician) parts_.log.say(ui::LogEvent::TechnicianSignedIn);
-        if (entered_ == StaffRole::Operator) parts_.log.say(ui::LogEvent::OperatorSignedIn);
+        if (entered_ == StaffRole::Technician) services_.log.say(ui::LogEvent::TechnicianSignedIn);
+        if (entered_ == StaffRole::Operator) services_.log.say(ui::LogEvent::OperatorSignedIn);
       },
       SideTasks::Whose::Device);
 }
@@ -173,7 +174,7 @@ void SignIn::offered_again(std::string_view pin, StaffRole role) {
 void SignIn::judge(std::string_view pin, StaffRole role, PinStep next) {
   const auto kept = std::make_shared<WipedText>(pin);
   view_.checking = true;
-  parts_.side_tasks.send(
+  services_.side_tasks.send(
       JobLane::Keeper, [this, kept, role](JobControl&) { return access_.check_new(role, kept->view()); },
       [this, kept, next, visit = visit_](const std::optional<Error>& error) {
         view_.checking = false;
@@ -189,7 +190,7 @@ void SignIn::refuse(const Error& error, PinStep again) {
   view_.step = again;
   if (error.code == Errc::InvalidState) view_.fault = PinFault::Taken;
   else if (error.code == Errc::InvalidInput) view_.fault = PinFault::Simple;
-  else view_.failed = error.code, parts_.log.fault(error);
+  else view_.failed = error.code, services_.log.fault(error);
 }
 
 // A PIN is kept by the keeper and known to nobody then. One of the two that was forgotten is chosen alone; a
@@ -198,7 +199,7 @@ void SignIn::save(const Pins& pins, PinStep begins, std::function<Result<void>(c
                   std::vector<ui::LogEvent> said) {
   const auto kept = std::make_shared<Pins>(pins);
   view_.checking = true;
-  parts_.side_tasks.send(
+  services_.side_tasks.send(
       JobLane::Keeper,
       [kept, write = std::move(write)](JobControl&) {
         const Result<void> saved = write(*kept);
@@ -208,7 +209,7 @@ void SignIn::save(const Pins& pins, PinStep begins, std::function<Result<void>(c
       [this, begins, said = std::move(said), home = home_,
        visit = visit_](const std::optional<Error>& error) {
         view_.checking = false;
-        if (error && visit != visit_) return parts_.log.fault(*error);
+        if (error && visit != visit_) return services_.log.fault(*error);
         if (error) return refuse(*error, begins);
         if (begins != PinStep::Own) {
           forgotten_ = StaffRole::None;
@@ -216,20 +217,21 @@ void SignIn::save(const Pins& pins, PinStep begins, std::function<Result<void>(c
           if (home) settle_in(*home);
         }
         if (visit == visit_) view_.step = PinStep::Done;
-        for (const ui::LogEvent event : said) parts_.log.say(event);
+        for (const ui::LogEvent event : said) services_.log.say(event);
       },
       SideTasks::Whose::Device);
 }
 
 // Who sets a device up chooses for its visitors, too.
 void SignIn::settle_in(ui::Language home) {
-  if (parts_.settings.wanted().of(ui::Setting::Language) == std::int32_t(home)) return;
-  parts_.settings.change(ui::Setting::Language, std::int32_t(home), [](const std::optional<Error>&) {});
+  if (services_.settings.wanted().of(ui::Setting::Language) == std::int32_t(home)) return;
+  services_.settings.change(ui::Setting::Language, std::int32_t(home), [](const std::optional<Error>&) {});
 }
 
 void SignIn::show(ui::AccessView& view) const {
-  const auto wait = std::chrono::ceil<std::chrono::seconds>(wait_until_ - parts_.clock.now());
-  const auto minute = std::chrono::floor<std::chrono::minutes>(parts_.clock.wall_now() + clock_moved_);
+  const auto wait = std::chrono::ceil<std::chrono::seconds>(wait_until_ - services_.device.clock().now());
+  const auto minute =
+      std::chrono::floor<std::chrono::minutes>(services_.device.clock().wall_now() + clock_moved_);
   if (clock_text_.empty() || minute != clock_text_at_) clock_text_ = text_of(minute);
   clock_text_at_ = minute;
   view = view_;

@@ -111,14 +111,12 @@ void fill_page_controllers(PageServices& services, Pages pages) {
   const auto at = [&](ui::StaffPage page) -> std::unique_ptr<PageController>& {
     return pages[std::size_t(page)];
   };
-  at(ui::StaffPage::Menu) = status_controller(services);
+  for (const auto page : {ui::StaffPage::Menu, ui::StaffPage::Recovery, ui::StaffPage::SelfTest,
+                          ui::StaffPage::Trigger, ui::StaffPage::Log})
+    at(page) = device_controller(services, page);
   at(ui::StaffPage::Records) = records_controller(services);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsController>(services);
   at(ui::StaffPage::Consent) = std::make_unique<ConsentController>(services);
-  at(ui::StaffPage::Recovery) = recovery_controller(services);
-  at(ui::StaffPage::SelfTest) = self_test_controller(services);
-  at(ui::StaffPage::Trigger) = trigger_controller(services);
-  at(ui::StaffPage::Log) = log_controller(services);
   at(ui::StaffPage::Health) = health_controller(services);
   at(ui::StaffPage::Touch) = std::make_unique<TouchController>(services);
   at(ui::StaffPage::Settings) = std::make_unique<SettingsController>(services);
@@ -179,8 +177,7 @@ StaffController::StaffController(Parts parts)
       services_{parts_.appliance, parts_.device, parts_.store,      side_tasks_, log_,
                 statistics_,      costs_,        settings_,         retention_,  touch_,
                 consent_,         parts_.folder, parts_.calibration},
-      sign_in_({parts_.store, parts_.device.clock(), side_tasks_, log_, parts_.set_clock, consent_, settings_,
-                parts_.device.is_live()}) {
+      sign_in_(services_, parts_.set_clock) {
   fill_page_controllers(services_, pages_);
   parts_.appliance.on_change([this](const Transition& change) { noted(change); });
 }
@@ -202,9 +199,7 @@ Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
   RELIEVO_TRY(staff->consent_.look());
   RELIEVO_TRY_ASSIGN(const std::string kept, staff->parts_.store.setting(kStatisticsSetting));
   if (!staff->statistics_.read(kept))
-    staff->statistics_.begin(
-        text_of(std::chrono::floor<std::chrono::milliseconds>(staff->parts_.device.clock().wall_now()))
-            .substr(0, 10));
+    staff->statistics_.begin(text_of(stored_time(staff->parts_.device.clock().wall_now())).substr(0, 10));
   RELIEVO_TRY_ASSIGN(const std::string costs, staff->parts_.store.setting(kVisitCostsSetting));
   (void)staff->costs_.read(costs);
   RELIEVO_TRY_ASSIGN(const bool words, staff->parts_.store.has_recovery_words());
@@ -251,7 +246,7 @@ void StaffController::clock_is(bool right, storage::WallTime newest_record) {
   const Error wrong{
       Errc::InvalidState,
       "the clock is before 2026, or a day before the newest record: nobody can enrol until it is set, or the staff say that it is right"};
-  const auto now = std::chrono::floor<std::chrono::milliseconds>(parts_.device.clock().wall_now());
+  const auto now = stored_time(parts_.device.clock().wall_now());
   log_.fault(wrong);
   const bool any = newest_record != storage::WallTime{};
   parts_.console.fail(wrong.at("the clock says " + text_of(now) +

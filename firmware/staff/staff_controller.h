@@ -43,17 +43,10 @@ using SetClock = std::function<Result<void>(std::chrono::system_clock::time_poin
 // Thread: main; what takes time runs as a side task on the keeper.
 class SignIn {
  public:
-  struct Parts {
-    storage::Store& store;
-    const hal::Clock& clock;
-    SideTasks& side_tasks;
-    EventLog& log;
-    SetClock set_clock;
-    ConsentTextStore& consent;
-    DeviceSettings& settings;
-    bool demands_set_up = false;  // see ui::AccessView::demanded
-  };
-  explicit SignIn(Parts parts) : parts_(std::move(parts)), access_(parts_.store, parts_.clock) {}
+  SignIn(PageServices& services, SetClock set_clock)
+      : services_(services),
+        set_clock_(std::move(set_clock)),
+        access_(services.store, services.device.clock()) {}
   SignIn& operator=(SignIn&&) = delete;
 
   // Before any thread uses the store.
@@ -83,7 +76,8 @@ class SignIn {
   void confirm_clock();
   void settle_in(ui::Language home);
 
-  Parts parts_;
+  PageServices& services_;
+  SetClock set_clock_;
   Access access_;
   ui::AccessView view_;                            // without what time changes (show())
   ui::StaffRole forgotten_ = ui::StaffRole::None;  // whose PIN is to be chosen anew

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/algorithm_controller.h"
+#include "firmware/technician/test_capture.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/calibration_controller.h"
+#include "firmware/technician/test_capture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "firmware/base/wall_time.h"
-#include "firmware/reconstruct/picture_pair.h"
+#include "firmware/reconstruct/reconstruction.h"
 #include "firmware/technician/stick_files.h"
 
 namespace relievo::firmware {
@@ -60,15 +60,15 @@ void CalibrationController::begun() {
 
 void CalibrationController::ended() {
   running_ = false;
-  const Result<void>& outcome = parts_.job.outcome();
+  const Result<void>& outcome = job_.outcome();
   if (!outcome) {
     if (outcome.error().code != Errc::Cancelled) problem_ = ui::fault_of(outcome.error());
     return;
   }
-  ended_ = parts_.job.result().has_value();
+  ended_ = job_.result().has_value();
   if (!ended_) return;
-  if (ui::Fault trouble = parts_.job.newest().problem; !trouble.empty()) problem_ = std::move(trouble);
-  const pipeline::CalibrationQuality& quality = parts_.job.result()->quality;
+  if (ui::Fault trouble = job_.newest().problem; !trouble.empty()) problem_ = std::move(trouble);
+  const pipeline::CalibrationQuality& quality = job_.result()->quality;
   reasons_ = quality.reasons;
   for (const pipeline::ViewQuality& view : quality.views)
     if (view.used)
@@ -153,11 +153,11 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first, 
 }
 
 void CalibrationController::store() {
-  if (!ended_ || stored_ || !parts_.job.result() ||
-      parts_.job.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse)
+  if (!ended_ || stored_ || !job_.result() ||
+      job_.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return;
   adopt(
-      [this, result = *parts_.job.result()]() -> Result<std::uint32_t> {
+      [this, result = *job_.result()]() -> Result<std::uint32_t> {
         return parts_.store.save_calibration(result.calibration, "calibrated at the screen",
                                              figures_of(result.quality));
       },
@@ -204,7 +204,7 @@ void CalibrationController::import_one() {
 }
 
 ui::TechnicianCalibration CalibrationController::view() {
-  ui::TechnicianCalibration view = parts_.job.newest();
+  ui::TechnicianCalibration view = job_.newest();
   view.columns = board_.corners_across;
   view.rows = board_.corners_down;
   view.square_mm = float(board_.square_mm);
@@ -218,7 +218,7 @@ ui::TechnicianCalibration CalibrationController::view() {
   if (!running_ || !problem_.empty()) view.problem = problem_;
   view.exported = exported_;
   if (ended_) {
-    const pipeline::CalibrationQuality& q = parts_.job.result()->quality;
+    const pipeline::CalibrationQuality& q = job_.result()->quality;
     view.verdict = q.verdict;
     view.depth_error_mm = float(q.face_depth_sigma_mm);
     view.rms_px = float(q.pair_rms_px);
@@ -236,7 +236,7 @@ ui::TechnicianCalibration CalibrationController::view() {
 
 void CalibrationController::forget() {
   ++visit_;
-  parts_.job.wipe();
+  job_.wipe();
   running_ = ended_ = stored_ = busy_ = mounted_anew_ = false;
   problem_ = {};
   reasons_.clear();

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/recording_controller.h"
+#include "firmware/technician/test_capture.h"
 
-#include <cstring>
 #include <utility>
 
 #include "firmware/base/output_folder.h"
@@ -16,13 +15,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kCapturesFolder = "captures";  // on the stick
 
-// Rows without padding: what is compared and written is pixels alone.
+// What is compared and written is pixels alone.
 ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
-  const auto row_bytes = std::size_t(view.width_px) * std::size_t(bytes_per_pixel(view.format));
-  room.resize(row_bytes * std::size_t(view.height_px));
-  for (int y = 0; y < view.height_px; ++y)
-    std::memcpy(room.data() + row_bytes * std::size_t(y), view.row(y), row_bytes);
-  return {room.data(), view.width_px, view.height_px, int(row_bytes), view.format};
+  room.resize(packed_bytes(view));
+  return packed(view, room.data());
 }
 
 // Pairs of its own, so that the session may be wiped while a slow stick is still being written to.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/run_job.h"
+#include "firmware/technician/technician_jobs.h"
 
 #include <algorithm>
 

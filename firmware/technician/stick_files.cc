@@ -41,7 +41,7 @@ Error unread(const fs::path& file) {
 Result<void> check_regular(const fs::path& file) {
   std::error_code error;
   if (const auto status = fs::status(file, error); fs::exists(status) && !fs::is_regular_file(status))
-    return Error{Errc::InvalidInput, "this is not a file"}.at(file.filename().string());
+    return invalid("this is not a file").at(file.filename().string());
   return {};
 }
 
@@ -54,8 +54,7 @@ Result<void> each_piece(const fs::path& file, JobControl& control, float from_sh
   if (!in) return unread(file);
   const auto size = std::size_t(in.tellg());
   if (size > storage::kMaxDocumentBytes)
-    return Error{Errc::InvalidInput, "this file is too large for a saved reconstruction"}.at(
-        file.filename().string());
+    return invalid("this file is too large for a saved reconstruction").at(file.filename().string());
   in.seekg(0);
   std::vector<std::byte> piece(std::min(size, kPieceBytes));
   for (std::size_t at = 0; at < size; at += kPieceBytes) {
@@ -145,8 +144,7 @@ Result<SavedBytes> read_saved(const std::string& name, hal::RemovableMedia& medi
                    saved.insert(saved.end(), piece.begin(), piece.end());
                    return {};
                  }));
-  const auto document = storage::Document::open(saved);
-  if (!document) return document.error().at(name);
+  RELIEVO_TRY(storage::Document::open(saved).at(name));
   return saved;
 }
 

@@ -15,7 +15,7 @@ using ui::TechnicianAct;
 using ui::TechnicianPhase;
 }  // namespace
 
-TestCapture::TestCapture(Parts parts)
+TestCapture::TestCapture(TechnicianParts parts)
     : parts_(std::move(parts)),
       session_(parts_.appliance.session()),
       shot_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool),
@@ -23,8 +23,7 @@ TestCapture::TestCapture(Parts parts)
       watch_(parts_.appliance.grabber(), session_, parts_.device),
       calibrate_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool,
                  std::move(parts_.show_boards)),
-      calibrations_({parts_.appliance, calibrate_, parts_.stages, parts_.store, parts_.log, parts_.side_tasks,
-                     parts_.device, std::move(parts_.in_use)}),
+      calibrations_(parts_, calibrate_),
       recording_(parts_.side_tasks, parts_.device) {
   algorithms_.begin(parts_.stages.algorithms());
 }

@@ -51,41 +51,36 @@ Result<void> HeadJob::add_sides(JobControl& control, std::vector<pipeline::HeadP
   return {};
 }
 
-template <typename Work>
-auto HeadJob::timed(std::string_view name, JobControl& control, Work&& work) {
-  EnrolmentSession::Scratch scratch(session_);
-  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, inner_, control.cancelled};
-  StageRecord record;
-  record.name = name;
-  const hal::Instant begin = clock_.now();
-  auto done = pipeline::run_stage(context, [&](pipeline::StageContext& c) { return work(c, record); });
-  record.took = clock_.now() - begin;
-  record.arena_peak_bytes = session_.output().used() + scratch.arena().high_water();
-  if (done) records_.push_back(record);
-  return done;
-}
-
 Result<void> HeadJob::measure(const pipeline::StereoFrame& pair, JobControl& control,
                               std::vector<pipeline::HeadPose>& poses) {
   Arena& kept = session_.sides().kept(poses.size());
   kept.reset();  // of a pose that came to nothing
-  return timed("Pose", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
+  const auto add = [&](pipeline::StageContext& context) {
     const Arena::Mark mark(session_.output());
-    RELIEVO_TRY(runner_.add_pose(pair, *session_.products().model, poses, context, kept));
-    record.in = poses.size();
-    return {};
-  });
+    return runner_.add_pose(pair, *session_.products().model, poses, context, kept);
+  };
+  RELIEVO_TRY(timed("Pose", inner_, control.cancelled,
+                    [&](pipeline::StageContext& context) { return pipeline::run_stage(context, add); }));
+  record_.in = poses.size();
+  records_.push_back(record_);
+  return {};
 }
 
 Result<void> HeadJob::fuse(JobControl& control, std::vector<pipeline::HeadPose>& poses) {
-  return timed("Fuse", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
-    record.in = poses.size();
-    RELIEVO_TRY_ASSIGN(pipeline::FusedHead head, runner_.fuse(*session_.products().model, poses, context));
-    record.out = head.model.mesh.triangles.size();
-    session_.products().model = std::move(head.model);
-    session_.products().registration = std::move(head.registration);
-    return {};
-  });
+  Products& made = session_.products();
+  const auto join = [&](pipeline::StageContext& context) {
+    return runner_.fuse(*made.model, poses, context);
+  };
+  RELIEVO_TRY_ASSIGN(pipeline::FusedHead head,
+                     timed("Fuse", inner_, control.cancelled, [&](pipeline::StageContext& context) {
+                       return pipeline::run_stage(context, join);
+                     }));
+  made.model = std::move(head.model);
+  made.registration = std::move(head.registration);
+  record_.in = poses.size();
+  record_.out = made.model->mesh.triangles.size();
+  records_.push_back(record_);
+  return {};
 }
 
 namespace {
@@ -107,17 +102,12 @@ FaceBox skin_in(const FaceBox& face) {
 Result<void> TurnJob::run(JobControl& control) {
   const std::span<std::byte> block = session_.follow_block();
   Arena output(block.first(block.size() / kReliefShare)), scratch(block.subspan(block.size() / kReliefShare));
-  struct AtTheEnd {  // also of what a library throws: HeadJob waits for it
-    Arena &output, &scratch;
-    SidePairs& sides;
-    LiveJudge* judge;
-    ~AtTheEnd() {
-      if (judge != nullptr) judge->forget();
-      output.wipe();
-      scratch.wipe();
-      sides.end();
-    }
-  } at_the_end{output, scratch, session_.sides(), judge_};
+  const Finally at_the_end{[&] {
+    if (judge_ != nullptr) judge_->forget();
+    output.wipe();
+    scratch.wipe();
+    session_.sides().end();  // HeadJob waits for it
+  }};
   return judge_ == nullptr ? Result<void>() : follow(control, output, scratch);
 }
 
@@ -159,11 +149,12 @@ Result<void> TurnJob::take(const pipeline::StereoFrame& seen, JobControl& contro
   return session_.sides().add(lit.frame);
 }
 
-Result<void> OpenCamerasJob::run(JobControl& control) {
-  const hal::Instant until = clock_.now() + budget::kCameraReturn;
+Result<void> open_cameras(StereoGrabber& grabber, const hal::CaptureMode& mode, const hal::Clock& clock,
+                          JobControl& control) {
+  const hal::Instant until = clock.now() + budget::kCameraReturn;
   for (;;) {
-    Result<void> started = grabber_.start(mode_);
-    if (started || grabber_.watch() == CameraWatch::Well || clock_.now() >= until) return started;
+    Result<void> started = grabber.start(mode);
+    if (started || grabber.watch() == CameraWatch::Well || clock.now() >= until) return started;
     if (control.cancelled.load()) return Error{Errc::Cancelled, "the cameras are no longer waited for"};
     std::this_thread::sleep_for(budget::kTick / 2);
   }
@@ -183,12 +174,9 @@ Result<void> PoseJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.check_cameras());
   const hal::Exposure known = exposure_.exposure();
   RELIEVO_TRY(exposure_.begin(known.time.count() > 0 ? known : kFirstExposure));
-  struct AtTheEnd {
-    LiveJudge* judge;
-    ~AtTheEnd() {
-      if (judge != nullptr) judge->forget();
-    }
-  } at_the_end{judge_};
+  const Finally at_the_end{[this] {
+    if (judge_ != nullptr) judge_->forget();
+  }};
   face_.reset();
   pairs_ = 0;
   while (!control.cancelled.load(std::memory_order_relaxed)) {
@@ -260,33 +248,13 @@ void GrabJob::took(const pipeline::StereoFrame& frame) {
 
 Result<void> StageJob::run(JobControl& control) {
   stand_behind_the_page();
-  record_ = {};
-  record_.name = name_of(stage_);
-  Arena& output = session_.output();
   session_.begins(stage_);
-  EnrolmentSession::Scratch scratch(session_);
-  pipeline::StageContext context{output, scratch.arena(), pool_, control.progress, control.cancelled};
-  const hal::Instant begin = clock_.now();
-  const Result<void> result = runner_.run(stage_, session_.products(), context, record_);
-  record_.took = clock_.now() - begin;
-  if (result) draw_stage_picture(stage_, session_.products(), session_.stage_pictures());
-  record_.arena_peak_bytes = output.used() + scratch.arena().high_water();
-  return result;
-}
-
-Result<void> KeepJob::run(JobControl& control) {
-  // Asked before the transaction begins: once it runs, it ends, whole or not at all.
-  if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
-  RELIEVO_ASSERT(session_.products().model.has_value());
-  RELIEVO_TRY_ASSIGN(kept_, records_.keep(record_, *session_.products().model));
-  return {};
-}
-
-Result<void> LookUpJob::run(JobControl&) {
-  // Whom the records cannot answer for is somebody new; a code they cannot answer for is none.
-  answer_.known = question_.code.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode;
-  RELIEVO_TRY_ASSIGN(answer_, records_.look_up(question_));
-  return {};
+  Result<void> done =
+      timed(name_of(stage_), control.progress, control.cancelled, [this](pipeline::StageContext& context) {
+        return runner_.run(stage_, session_.products(), context, record_);
+      });
+  if (done) draw_stage_picture(stage_, session_.products(), session_.stage_pictures());
+  return done;
 }
 
 }  // namespace relievo::firmware

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The jobs of the three threads. Each is made once, with the appliance, and started many times.
-//   capture: OpenCamerasJob PoseJob GrabJob TurnJob    worker: StageJob HeadJob    keeper: KeepJob LookUpJob
+//   capture: open_cameras() PoseJob GrabJob TurnJob    worker: StageJob HeadJob    keeper: KeeperJob
 #pragma once
 
 #include <algorithm>
@@ -10,38 +10,83 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "firmware/capture/burst.h"
 #include "firmware/capture/face_light.h"
 #include "firmware/capture/live_judge.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/session/session.h"
 #include "firmware/work/stage_runner.h"
-#include "firmware/work/visit_records.h"
 #include "hal/base/thread_pool.h"
+#include "hal/base/wiped_text.h"
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "pipeline/calibrate/drift.h"
 #include "pipeline/model/advice.h"
+#include "pipeline/model/face_model.h"
+#include "storage/record.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
 
-// A camera that never answered is an error at once; one that was there and vanished is waited for.
-class OpenCamerasJob final : public Job {
- public:
-  OpenCamerasJob(StereoGrabber& grabber, const hal::CaptureMode& mode, const hal::Clock& clock)
-      : grabber_(grabber), mode_(mode), clock_(clock) {}
-  Result<void> run(JobControl& control) override;
+// The records as a visit needs them. Between the threads go values alone, so that none looks into another's:
+//
+//   main: VisitRecord, RecordQuestion --> keeper: VisitRecords --> main: KeptVisit, RecordAnswer
+//
+// Errors: the store's, and MediaFull. Thread: the keeper alone calls VisitRecords.
 
- private:
-  StereoGrabber& grabber_;
-  hal::CaptureMode mode_;
-  const hal::Clock& clock_;
+// All that is stored of a visit beside its model.
+struct VisitRecord {
+  WipedText name;                           // shown; of the new record, if it is one
+  std::optional<storage::SubjectId> whose;  // a record that is there already
+  bool renews = false;                      // what it held goes
+  storage::Consent consent;
+  std::uint32_t calibration = 0;  // revision
+  std::string calibration_note;   // as the report calls it
+  std::string algorithms;
+  std::int32_t least_room_mib = 0;  // the disk keeps so much free
+  // Added when it is stored:
+  std::vector<StageRecord> stages;
+  std::optional<pipeline::DriftJudgement> drift;
 };
+
+// In place: on its way to the person nothing can fail any more.
+struct KeptVisit {
+  storage::EnrolmentId enrolment{};
+  ShortWipedText<24> receipt;  // for the person's erasure
+  ShortWipedText<32> link;     // for where the operator offers their portrait; erases nothing
+  storage::WallTime at{};
+};
+
+// Is there a record of this name, or of this code?
+struct RecordQuestion {
+  WipedText name, code;  // no code: the name is asked about
+  bool tells_names = true;
+};
+
+struct RecordAnswer {
+  ui::Known known = ui::Known::NotAsked;
+  storage::SubjectId record{};  // of a code
+};
+
+class VisitRecords {
+ public:
+  virtual ~VisitRecords() = default;
+  virtual Result<KeptVisit> keep(const VisitRecord& record, const pipeline::FaceModel& model) = 0;
+  virtual Result<RecordAnswer> look_up(const RecordQuestion& question) = 0;
+};
+
+// A camera that never answered is an error at once; one that was there and vanished is waited for.
+Result<void> open_cameras(StereoGrabber& grabber, const hal::CaptureMode& mode, const hal::Clock& clock,
+                          JobControl& control);
 
 // One pair, looked at by nobody and wiped; beside the last test capture, which stays. Cameras that are not
 // open are opened, so that one that was plugged in is recognised (StereoGrabber::check_cameras()). Errors:
@@ -111,42 +156,42 @@ class StageJob : public Job {
  protected:
   StageRunner& runner_;
   EnrolmentSession& session_;
+  // Fills in the record: what work(context) costs, in a scratch arena of its own.
+  template <typename Work>
+  auto timed(std::string_view name, pipeline::Progress& progress, const std::atomic<bool>& cancelled,
+             const Work& work) {
+    EnrolmentSession::Scratch scratch(session_);
+    pipeline::StageContext context{session_.output(), scratch.arena(), pool_, progress, cancelled};
+    record_ = {name};
+    const hal::Instant begin = clock_.now();
+    auto done = work(context);
+    record_.took = clock_.now() - begin;
+    record_.arena_peak_bytes = session_.output().used() + scratch.arena().high_water();
+    return done;
+  }
   ThreadPool& pool_;
   const hal::Clock& clock_;
+  StageRecord record_;
 
  private:
   State stage_ = State::Match;
-  StageRecord record_;
 };
 
-// Puts a finished model away. What it works with is given before it starts, what it found taken when it has
-// ended: both by the main thread.
-class KeepJob final : public Job {
+// What it works with is given before it starts, what it found taken when it has ended: both by the main
+// thread.
+template <typename Given, typename Found>
+class KeeperJob final : public Job {
  public:
-  KeepJob(VisitRecords& records, EnrolmentSession& session) : records_(records), session_(session) {}
-  void give(VisitRecord record) { record_ = std::move(record); }
-  KeptVisit take() { return std::exchange(kept_, {}); }
-  Result<void> run(JobControl& control) override;
+  using Work = std::function<Result<void>(const Given& given, Found& found, JobControl& control)>;
+  explicit KeeperJob(Work work) : work_(std::move(work)) {}
+  void give(Given given) { given_ = std::move(given); }
+  Found take() { return std::exchange(found_, {}); }
+  Result<void> run(JobControl& control) override { return work_(given_, found_, control); }
 
  private:
-  VisitRecords& records_;
-  EnrolmentSession& session_;
-  VisitRecord record_;
-  KeptVisit kept_;
-};
-
-// Asks the records while nobody's session is open; given and taken as a KeepJob's.
-class LookUpJob final : public Job {
- public:
-  explicit LookUpJob(VisitRecords& records) : records_(records) {}
-  void give(RecordQuestion question) { question_ = std::move(question); }
-  RecordAnswer take() { return std::exchange(answer_, {}); }
-  Result<void> run(JobControl& control) override;
-
- private:
-  VisitRecords& records_;
-  RecordQuestion question_;
-  RecordAnswer answer_;
+  Work work_;
+  Given given_;
+  Found found_;
 };
 
 // TurnJob: follows the head that turns after the frontal picture, on the screen as in a mirror, and takes
@@ -204,9 +249,6 @@ class HeadJob final : public StageJob {
   Result<void> measure(const pipeline::StereoFrame& pair, JobControl& control,
                        std::vector<pipeline::HeadPose>& poses);
   Result<void> fuse(JobControl& control, std::vector<pipeline::HeadPose>& poses);
-  template <typename Work>
-  auto timed(std::string_view name, JobControl& control, Work&& work);
-
   pipeline::Progress inner_;  // of one part
   std::atomic<std::size_t> parts_done_{0};
   std::vector<StageRecord> records_;

@@ -3,7 +3,6 @@
 #include "firmware/work/pipeline_stages.h"
 
 #include <algorithm>
-#include <array>
 
 #include "firmware/capture/live_judge.h"
 #include "hal/base/assert.h"
@@ -52,12 +51,9 @@ Result<pipeline::FusedHead> PipelineStages::fuse(const pipeline::FaceModel& face
 // A face that is not found, not matched or no face's shape may be the pictures' fault: then that is told.
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
-  constexpr std::array kSteps{&PipelineStages::match, &PipelineStages::reconstruct, &PipelineStages::mesh,
-                              &PipelineStages::texture, &PipelineStages::assemble};
-  static_assert(kSteps.size() == kStages.size());
   if (!pipeline_) return uncalibrated();
   if (!is_stage(stage)) return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
-  Result<void> done = (this->*kSteps[number_of(stage)])(products, context, record);
+  const Result<void> done = run_stage(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
   if (done || stage >= State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
     return done;
@@ -65,64 +61,48 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
   return done;
 }
 
-Result<void> PipelineStages::match(Products& products, pipeline::StageContext& context,
-                                   StageRecord& record) const {
-  RELIEVO_ASSERT(products.frame.has_value());
-  record.in = pixels(products.frame->left) + pixels(products.frame->right);
-  RELIEVO_TRY_ASSIGN(products.pair, pipeline_->rectify(*products.frame, context));
-  RELIEVO_TRY_ASSIGN(products.matches, pipeline_->match(*products.pair, context));
-  record.out = accepted(*products.matches);
-  products.drift = pipeline::judge_drift(products.matches->epipolar_shift, pipeline_->calibration());
-  if (products.drift->verdict != pipeline::DriftVerdict::Refuse || when_moved_ == WhenMoved::GoOn) return {};
-  return error_of(*products.drift);
-}
-
-Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageContext& context,
-                                         StageRecord& record) const {
-  RELIEVO_ASSERT(products.pair.has_value() && products.matches.has_value());
-  record.in = accepted(*products.matches) + by_hand_.size();
-  RELIEVO_TRY_ASSIGN(products.cloud,
-                     pipeline_->reconstruct(*products.pair, *products.matches, context, by_hand_));
-  record.out = products.cloud->points.size();
-  return {};
-}
-
-Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& context,
-                                  StageRecord& record) const {
-  RELIEVO_ASSERT(products.cloud.has_value() && products.pair.has_value());
-  record.in = products.cloud->points.size();
-  RELIEVO_TRY_ASSIGN(products.mesh, pipeline_->mesh(*products.cloud, *products.pair, context));
-  record.out = products.mesh->triangles.size();
-  return {};
-}
-
-Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context,
-                                     StageRecord& record) const {
-  RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value());
-  record.in = products.mesh->triangles.size();
-  RELIEVO_TRY_ASSIGN(products.texture, pipeline_->texture(*products.mesh, *products.pair, context));
-  record.out = products.texture->rgb.size() / 3;
-  return {};
-}
-
-Result<void> PipelineStages::assemble(Products& products, pipeline::StageContext& context,
-                                      StageRecord& record) const {
-  RELIEVO_ASSERT(products.texture.has_value() && products.mesh.has_value() && products.pair.has_value() &&
-                 products.matches.has_value());
-  record.in = products.mesh->vertices_mm.size();
-  RELIEVO_TRY_ASSIGN(
-      products.model,
-      pipeline_->assemble(std::move(*products.mesh), std::move(*products.texture), *products.pair, context));
-  products.mesh.reset();  // they live on in the model
-  products.texture.reset();
-  if (products.model->unjudged && when_unjudged_ == WhenUnjudged::Refuse) {
-    const Error why = *products.model->unjudged;
-    products.model.reset();
-    return why;
+Result<void> PipelineStages::run_stage(State stage, Products& made, pipeline::StageContext& context,
+                                       StageRecord& record) const {
+  if (stage == State::Match) {
+    RELIEVO_ASSERT(made.frame.has_value());
+    record.in = pixels(made.frame->left) + pixels(made.frame->right);
+    RELIEVO_TRY_ASSIGN(made.pair, pipeline_->rectify(*made.frame, context));
+    RELIEVO_TRY_ASSIGN(made.matches, pipeline_->match(*made.pair, context));
+    record.out = accepted(*made.matches);
+    made.drift = pipeline::judge_drift(made.matches->epipolar_shift, pipeline_->calibration());
+    if (made.drift->verdict == pipeline::DriftVerdict::Refuse && when_moved_ == WhenMoved::Refuse)
+      return error_of(*made.drift);
+  } else if (stage == State::Reconstruct) {
+    RELIEVO_ASSERT(made.pair.has_value() && made.matches.has_value());
+    record.in = accepted(*made.matches) + by_hand_.size();
+    RELIEVO_TRY_ASSIGN(made.cloud, pipeline_->reconstruct(*made.pair, *made.matches, context, by_hand_));
+    record.out = made.cloud->points.size();
+  } else if (stage == State::Mesh) {
+    RELIEVO_ASSERT(made.cloud.has_value() && made.pair.has_value());
+    record.in = made.cloud->points.size();
+    RELIEVO_TRY_ASSIGN(made.mesh, pipeline_->mesh(*made.cloud, *made.pair, context));
+    record.out = made.mesh->triangles.size();
+  } else if (stage == State::Texture) {
+    RELIEVO_ASSERT(made.mesh.has_value() && made.pair.has_value());
+    record.in = made.mesh->triangles.size();
+    RELIEVO_TRY_ASSIGN(made.texture, pipeline_->texture(*made.mesh, *made.pair, context));
+    record.out = made.texture->rgb.size() / 3;
+  } else {
+    RELIEVO_ASSERT(made.texture.has_value() && made.mesh.has_value() && made.pair.has_value() &&
+                   made.matches.has_value());
+    record.in = made.mesh->vertices_mm.size();
+    RELIEVO_TRY_ASSIGN(made.model, pipeline_->assemble(std::move(*made.mesh), std::move(*made.texture),
+                                                       *made.pair, context));
+    made.mesh.reset();  // they live on in the model
+    made.texture.reset();
+    if (made.model->unjudged && when_unjudged_ == WhenUnjudged::Refuse) {
+      const Error why = *made.model->unjudged;
+      made.model.reset();
+      return why;
+    }
+    made.model->quality.epipolar_residual_px = made.matches->epipolar_shift.residual_px;
+    record.out = std::uint64_t(std::ranges::count_if(made.model->landmarks, &pipeline::Landmark::found));
   }
-  products.model->quality.epipolar_residual_px = products.matches->epipolar_shift.residual_px;
-  record.out = std::uint64_t(
-      std::ranges::count_if(products.model->landmarks, [](const pipeline::Landmark& l) { return l.found; }));
   return {};
 }
 

@@ -56,11 +56,8 @@ class PipelineStages final : public StageRunner {
                                    pipeline::StageContext& context) override;
 
  private:
-  Result<void> match(Products& products, pipeline::StageContext& context, StageRecord& record) const;
-  Result<void> reconstruct(Products& products, pipeline::StageContext& context, StageRecord& record) const;
-  Result<void> mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const;
-  Result<void> texture(Products& products, pipeline::StageContext& context, StageRecord& record) const;
-  Result<void> assemble(Products& products, pipeline::StageContext& context, StageRecord& record) const;
+  Result<void> run_stage(State stage, Products& made, pipeline::StageContext& context,
+                         StageRecord& record) const;
 
   pipeline::AlgorithmSet set_;
   std::optional<pipeline::Pipeline> pipeline_;

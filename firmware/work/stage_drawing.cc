@@ -52,6 +52,14 @@ void triangle(const Corner& a, const Corner& b, const Corner& c, std::vector<flo
   }
 }
 
+// corner(i): the vertex on the canvas.
+template <typename At>
+void draw_triangles(const pipeline::FaceMesh& mesh, const At& corner, StageCanvas& canvas) {
+  std::vector<float> depth(std::size_t(canvas.side()) * std::size_t(canvas.side()),
+                           std::numeric_limits<float>::max());
+  for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
+}
+
 // Points lie closer together than pixels: of those in a cell of the canvas the one nearest to its middle is
 // drawn, as a disc with a soft rim. Fewer or harder ones would beat against the pixels of the screen the
 // picture is scaled to.
@@ -111,15 +119,12 @@ void draw_capture(const ImageView& picture, const std::optional<FaceBox>& face, 
   const double left = (face ? face->x_px + face->width_px / 2.0 : picture.width_px / 2.0) - side / 2,
                top = (face ? face->y_px + face->height_px / 2.0 : high / 2) - side / 2;
   const double step = side / canvas.side();
-  const int bytes = bytes_per_pixel(picture.format),
-            high_byte = picture.format == PixelFormat::Grey16 ? 1 : 0;
-  const bool coloured = picture.format == PixelFormat::Rgb8;
   for (int y = 0; y < canvas.side(); ++y) {
     for (int x = 0; x < canvas.side(); ++x) {
       const int u = int(left + (x + 0.5) * step), v = int(top + (y + 0.5) * step);
       if (u < 0 || v < 0 || u >= picture.width_px || v >= picture.height_px) continue;
-      const std::uint8_t* at = picture.row(v) + std::ptrdiff_t(u) * bytes + high_byte;
-      canvas.put(x, y, {1.0 * at[0], 1.0 * at[coloured ? 1 : 0], 1.0 * at[coloured ? 2 : 0]});
+      const auto [red, green, blue] = colour_of(picture.row(v), u, picture.format);
+      canvas.put(x, y, {1.0 * red, 1.0 * green, 1.0 * blue});
     }
   }
   pictures.done(0);
@@ -213,8 +218,6 @@ void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud&
 void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh,
                   const pipeline::TextureAtlas* skin, StageCanvas& canvas) {
   const FaceWindow window(pair, canvas.side());
-  std::vector<float> depth(std::size_t(canvas.side()) * std::size_t(canvas.side()),
-                           std::numeric_limits<float>::max());
   const bool coloured = skin != nullptr && skin->vertex_rgb.size() >= 3 * mesh.vertices_mm.size();
   const auto corner = [&](std::uint32_t i) {
     const auto& v = mesh.vertices_mm[i];
@@ -228,14 +231,12 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
     return Corner{window.x(pair.focal_px * p.x / p.z + pair.left_centre_px.x),
                   window.y(pair.focal_px * p.y / p.z + pair.left_centre_px.y), p.z, colour};
   };
-  for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
+  draw_triangles(mesh, corner, canvas);
 }
 
 void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
                double turned_deg, double across_mm, StageCanvas& canvas) {
   constexpr double kPi = 3.14159265358979323846;
-  std::vector<float> depth(std::size_t(canvas.side()) * std::size_t(canvas.side()),
-                           std::numeric_limits<float>::max());
   const double side = canvas.side(), c = std::cos(turned_deg * kPi / 180),
                s = std::sin(turned_deg * kPi / 180);
   const pipeline::Rotation turn{{c, 0, s, 0, 1, 0, -s, 0, c}};
@@ -256,7 +257,7 @@ void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& h
     return Corner{side * (0.5 + (p.x - middle_x) / across_mm), side * (0.5 - (p.y - middle_y) / across_mm),
                   -p.z, clay(lit)};
   };
-  for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
+  draw_triangles(mesh, corner, canvas);
 }
 
 }  // namespace relievo::firmware

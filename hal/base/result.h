@@ -88,6 +88,8 @@ class [[nodiscard]] Result {
   const T* operator->() const { return std::get_if<0>(&state_); }
 
   const Error& error() const { return *std::get_if<1>(&state_); }
+  // Its error, if it is one, at this place.
+  Result at(std::string_view place) && { return has_value() ? std::move(*this) : error().at(place); }
 
  private:
   std::variant<T, Error> state_;
@@ -102,6 +104,7 @@ class [[nodiscard]] Result<void> {
   bool has_value() const { return state_.index() == 0; }
   explicit operator bool() const { return has_value(); }
   const Error& error() const { return *std::get_if<1>(&state_); }
+  Result at(std::string_view place) && { return has_value() ? std::move(*this) : error().at(place); }
 
  private:
   std::variant<std::monostate, Error> state_;

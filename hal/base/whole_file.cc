@@ -11,6 +11,8 @@
 #include <new>
 #include <system_error>
 
+#include "hal/base/words.h"
+
 namespace relievo {
 namespace {
 
@@ -24,26 +26,18 @@ struct Descriptor {
 };
 
 Error failed(const fs::path& file, int cause) {
-  const auto made = [&](Errc code, Literal what) { return Error{code, what, cause}.at(file.string()); };
-  switch (cause) {
-    case ENOSPC:
-    case EDQUOT: return made(Errc::MediaFull, "not written, the disk is full: make room there and try again");
-    case EFBIG:
-      return made(Errc::MediaFull, "not written, the file is larger than this disk takes: use another disk");
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return made(Errc::IoFailed,
-                  "not written, this place may not be written to: choose another, or change its permissions");
-    case ENOENT:
-    case ENOTDIR: return made(Errc::IoFailed, "not written, there is no such directory: check the path");
-    case EISDIR:
-      return made(Errc::IoFailed,
-                  "not written, a directory has this name: remove it or choose another place");
-    default:
-      return made(Errc::IoFailed,
-                  "not written, the disk failed: check it, and write to another if this happens again");
-  }
+  constexpr Meaning kRows[] = {
+      {{ENOSPC, EDQUOT}, Errc::MediaFull, "not written, the disk is full: make room there and try again"},
+      {{EFBIG}, Errc::MediaFull, "not written, the file is larger than this disk takes: use another disk"},
+      {{EACCES, EPERM, EROFS},
+       Errc::IoFailed,
+       "not written, this place may not be written to: choose another, or change its permissions"},
+      {{ENOENT, ENOTDIR}, Errc::IoFailed, "not written, there is no such directory: check the path"},
+      {{EISDIR}, Errc::IoFailed, "not written, a directory has this name: remove it or choose another place"},
+      {{},
+       Errc::IoFailed,
+       "not written, the disk failed: check it, and write to another if this happens again"}};
+  return meaning_of(cause, kRows).at(file.string());
 }
 
 // 0 or the errno of what failed.

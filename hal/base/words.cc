@@ -4,12 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <cstring>
 
 #include "hal/base/utf8.h"
 
 namespace relievo {
+
+std::string printed(const char* format, ...) {  // NOLINT(cert-dcl50-cpp): as printf() has them
+  char text[512];
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  return text;
+}
 
 std::string decimal(double number, int decimals, bool with_sign) {
   if (std::isnan(number)) return "-";
@@ -39,6 +49,14 @@ std::string shown_name(std::string_view name) {
     else shown += one;
   }
   return shown;
+}
+
+Error meaning_of(int number, std::span<const Meaning> rows) {
+  const auto row = std::ranges::find_if(rows, [number](const Meaning& one) {
+    return one.numbers[0] == 0 ||
+           (number != 0 && std::ranges::find(one.numbers, number) != one.numbers.end());
+  });
+  return {row->code, row->what, number};
 }
 
 std::string detail_of(const Error& error) {

@@ -6,25 +6,21 @@
 
 #include <cerrno>
 
+#include "hal/base/words.h"
+
 namespace relievo::hal {
 namespace {
 
 constexpr std::chrono::seconds kLeast{2}, kMost{300};
 
-Error cannot_open(int number) {
-  switch (number) {
-    case ENOENT:
-    case ENODEV:
-    case ENXIO:
-      return {Errc::NotFound, "there is no watchdog here: load its driver, or leave [watchdog] out", number};
-    case EBUSY:
-      return {Errc::IoFailed, "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set",
-              number};
-    case EACCES:
-    case EPERM: return {Errc::IoFailed, "this user may not open the watchdog", number};
-    default: return {Errc::IoFailed, "the watchdog cannot be opened", number};
-  }
-}
+// By what opening it gives.
+constexpr Meaning kCannotOpen[] = {
+    {{ENOENT, ENODEV, ENXIO},
+     Errc::NotFound,
+     "there is no watchdog here: load its driver, or leave [watchdog] out"},
+    {{EBUSY}, Errc::IoFailed, "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set"},
+    {{EACCES, EPERM}, Errc::IoFailed, "this user may not open the watchdog"},
+    {{}, Errc::IoFailed, "the watchdog cannot be opened"}};
 
 // The driver rounds, or has a time of its own.
 Result<std::chrono::seconds> set_timeout(Kernel& kernel, int file, std::chrono::seconds wanted) {
@@ -82,7 +78,7 @@ Result<std::unique_ptr<Watchdog>> open_hardware_watchdog(const WatchdogOptions& 
                                                          const Clock& clock) {
   RELIEVO_TRY(options.check());
   const int file = open_device(kernel, options.device.c_str());
-  if (file < 0) return cannot_open(-file).at(options.device);
+  if (file < 0) return meaning_of(-file, kCannotOpen).at(options.device);
   const auto timeout = set_timeout(kernel, file, options.timeout);
   if (!timeout) {
     put_to_rest(kernel, file);

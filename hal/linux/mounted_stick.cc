@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "hal/base/words.h"
+
 namespace relievo::hal {
 namespace {
 
@@ -58,18 +60,13 @@ class RealMounts final : public Mounts {
   }
 };
 
-Error cannot_unmount(int negative_errno) {
-  if (negative_errno == -EBUSY)
-    return {Errc::IoFailed, "something still uses the stick: wait a little and eject it again", EBUSY};
-  if (negative_errno == -EPERM || negative_errno == -EACCES)
-    return {
-        Errc::IoFailed,
-        "everything is written, but this user may not unmount the stick: see hal/linux/README.md (installed: share/doc/relievo/board.md)",
-        -negative_errno};
-  if (negative_errno == -EINVAL || negative_errno == -ENOENT)
-    return {Errc::MediaMissing, "the stick is gone", -negative_errno};
-  return {Errc::IoFailed, "the stick could not be unmounted; do not trust what was written", -negative_errno};
-}
+constexpr Meaning kCannotUnmount[] = {
+    {{EBUSY}, Errc::IoFailed, "something still uses the stick: wait a little and eject it again"},
+    {{EPERM, EACCES},
+     Errc::IoFailed,
+     "everything is written, but this user may not unmount the stick: see hal/linux/README.md (installed: share/doc/relievo/board.md)"},
+    {{EINVAL, ENOENT}, Errc::MediaMissing, "the stick is gone"},
+    {{}, Errc::IoFailed, "the stick could not be unmounted; do not trust what was written"}};
 
 // "\\040" is a blank: proc(5) writes blank, tab, line end and backslash in octal.
 std::string unescaped(std::string_view text) {
@@ -149,7 +146,7 @@ Result<void> MountedStick::flush_and_eject() {
   const auto source = mounts_.source_of(*stick);
   ejected_.reset();
   if (const int unmounted = mounts_.unmount(*stick); unmounted < 0)
-    return cannot_unmount(unmounted).at(stick->native());
+    return meaning_of(-unmounted, kCannotUnmount).at(stick->native());
   taken_up_.reset();
   if (source) ejected_ = Ejected{*source, *stick};
   return {};

@@ -8,6 +8,8 @@
 #include <linux/videodev2.h>
 #include <poll.h>
 
+#include "hal/base/words.h"
+
 namespace relievo::hal {
 namespace {
 
@@ -15,21 +17,13 @@ constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 const Error kNoMemory{Errc::OutOfMemory,
                       "the camera's driver has no memory for its buffers: choose a smaller mode"};
 
-Error open_error(int negative_errno) {
-  switch (-negative_errno) {
-    case ENOENT:
-    case ENODEV:
-    case ENXIO:
-      return Error{Errc::NotFound, "there is no camera: check its plug, and its name under /dev/v4l/by-path",
-                   -negative_errno};
-    case EACCES:
-    case EPERM:
-      return Error{Errc::IoFailed, "this camera may not be opened: add the user to the group video",
-                   -negative_errno};
-    case EBUSY: return Error{Errc::IoFailed, "another program uses this camera: close it", -negative_errno};
-    default: return Error{Errc::IoFailed, "this camera cannot be opened", -negative_errno};
-  }
-}
+constexpr Meaning kCannotOpenIt[] = {
+    {{ENOENT, ENODEV, ENXIO},
+     Errc::NotFound,
+     "there is no camera: check its plug, and its name under /dev/v4l/by-path"},
+    {{EACCES, EPERM}, Errc::IoFailed, "this camera may not be opened: add the user to the group video"},
+    {{EBUSY}, Errc::IoFailed, "another program uses this camera: close it"},
+    {{}, Errc::IoFailed, "this camera cannot be opened"}};
 
 v4l2_buffer empty_buffer(std::size_t index) {
   v4l2_buffer buffer{};
@@ -43,7 +37,7 @@ v4l2_buffer empty_buffer(std::size_t index) {
 
 Result<void> V4l2Camera::do_open(const CaptureMode& mode) {
   const int file = open_device(kernel_, options_.device.c_str());
-  if (file < 0) return open_error(file).at(options_.device);
+  if (file < 0) return meaning_of(-file, kCannotOpenIt).at(options_.device);
   file_ = file;
   if (const Result<void> ready = set_up(mode); !ready) {
     release();

@@ -14,8 +14,12 @@
 #include "hal/picture_file.h"
 
 namespace relievo::hal {
+namespace {
 
 constexpr std::int64_t kMostNumber = 999'999;  // six digits in a picture's name
+constexpr std::size_t kLimitBytes = 16U << 20;
+
+}  // namespace
 
 std::string recorded_name(const char* side, std::int64_t number) {
   char name[40];
@@ -48,12 +52,6 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   RELIEVO_TRY(write_capture_file(folder / "capture.json", capture));
   return number;
 }
-
-namespace {
-
-constexpr std::size_t kLimitBytes = 16U << 20;
-
-}  // namespace
 
 Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
   RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, read_whole_file(file, kLimitBytes));

@@ -16,7 +16,7 @@ constexpr std::int64_t kCellsASquare = 128;
 
 int marker_count(const BoardPattern& b) { return (b.corners_x + 1) * (b.corners_y + 1) / 2; }
 
-bool seen_whole(const SimView& view, const BoardPattern& b, const BoardPose& pose) {
+bool seen_whole(const SimView& view, const BoardPattern& b, const BodyPose& pose) {
   for (const double x : {-1.0, double(b.corners_x)})
     for (const double y : {-1.0, double(b.corners_y)}) {
       const Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
@@ -76,16 +76,16 @@ BoardPrint::Spot BoardPrint::at(double x_mm, double y_mm) const {
   return spot((markers_[std::size_t(id)] >> bit & 1) == 0);
 }
 
-BoardPose with_middle_at(Vec3 middle_mm, const Mat3& world_from_board, const BoardPattern& b) {
+BodyPose with_middle_at(Vec3 middle_mm, const Mat3& world_from_body, const BoardPattern& b) {
   const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
-  return {world_from_board, middle_mm - world_from_board * middle};
+  return {world_from_body, middle_mm - world_from_body * middle};
 }
 
-Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPattern& b, int count,
-                                                std::uint32_t seed, double distance_mm) {
+Result<std::vector<BodyPose>> good_board_poses(const SimRig& rig, const BoardPattern& b, int count,
+                                               std::uint32_t seed, double distance_mm) {
   RELIEVO_TRY(b.check());
   Random random(seed + 0xb0a4dULL);
-  std::vector<BoardPose> poses;
+  std::vector<BodyPose> poses;
   const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
   for (int tries = 0; int(poses.size()) < count && tries < 20000; ++tries) {
     const auto k = int(poses.size());
@@ -97,7 +97,7 @@ Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPa
         rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.35, 0.35));
     const Vec3 centre = aim * (distance_mm + random.uniform(-60, 110) + 4e-3 * tries) +
                         Vec3{random.uniform(-70, 70), random.uniform(-42, 42), 0} * spread;
-    const BoardPose pose = with_middle_at(centre, turn, b);
+    const BodyPose pose = with_middle_at(centre, turn, b);
     if (seen_whole(rig.left, b, pose) && seen_whole(rig.right, b, pose)) poses.push_back(pose);
   }
   if (int(poses.size()) < count)
@@ -114,13 +114,12 @@ Result<void> BoardLook::check() const {
   return {};
 }
 
-BoardScene::BoardScene(const BoardPattern& pattern, const BoardPose& pose, const BoardLook& look,
+BoardScene::BoardScene(const BoardPattern& pattern, const BodyPose& pose, const BoardLook& look,
                        double pixel_rad)
     : pattern_(pattern), print_(pattern), pose_(pose), look_(look), pixel_rad_(pixel_rad) {}
 
 bool BoardScene::meet(Vec3 origin, Vec3 direction, Hit& hit) const {
-  const Mat3 board_from_world = pose_.world_from_board.transposed();
-  const Vec3 o = board_from_world * (origin - pose_.origin_mm), d = board_from_world * direction;
+  const Vec3 o = pose_.to_body(origin), d = pose_.world_from_body.transposed() * direction;
   if (std::abs(d.z) < 1e-9) return false;
   hit.distance = -o.z / d.z;
   hit.x = o.x + hit.distance * d.x;

@@ -55,13 +55,7 @@ class BoardPrint {
 // without the border, row by row from the lowest bit; set: white.
 std::vector<std::uint64_t> marker_modules(int bits, int count);
 
-struct BoardPose {
-  Mat3 world_from_board;
-  Vec3 origin_mm;  // of the board, in world
-  Vec3 to_world(Vec3 p) const { return world_from_board * p + origin_mm; }
-  Vec3 normal() const { return world_from_board * Vec3{0, 0, 1}; }
-};
-BoardPose with_middle_at(Vec3 middle_mm, const Mat3& world_from_board, const BoardPattern& pattern);
+BodyPose with_middle_at(Vec3 middle_mm, const Mat3& world_from_body, const BoardPattern& pattern);
 
 // What a calibration has to bear; all 0: an even light on a clean board.
 struct BoardLook {
@@ -76,7 +70,7 @@ class BoardScene final : public Scene {
  public:
   // Where `pixel_rad`, the angle of a pixel, is given, a ray collects the light of a whole pixel, and
   // the camera needs no more than one.
-  BoardScene(const BoardPattern& pattern, const BoardPose& pose, const BoardLook& look = {},
+  BoardScene(const BoardPattern& pattern, const BodyPose& pose, const BoardLook& look = {},
              double pixel_rad = 0);
   RayHit look(Vec3 origin, Vec3 direction) const override;
 
@@ -91,14 +85,14 @@ class BoardScene final : public Scene {
 
   BoardPattern pattern_;
   BoardPrint print_;
-  BoardPose pose_;
+  BodyPose pose_;
   BoardLook look_;
   double pixel_rad_;
 };
 
 // Poses that show the whole board to both cameras, tilted and spread as a good calibration wants.
 // PoorGeometry when the rig cannot see this board whole.
-Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPattern& pattern, int count,
-                                                std::uint32_t seed, double distance_mm = 560);
+Result<std::vector<BodyPose>> good_board_poses(const SimRig& rig, const BoardPattern& pattern, int count,
+                                               std::uint32_t seed, double distance_mm = 560);
 
 }  // namespace relievo::hal::sim

@@ -24,8 +24,8 @@ std::size_t index_of(int width, int x, int y) { return std::size_t(y) * std::siz
 struct ToBoard {
   Vec3 x, y, w;
 
-  ToBoard(const SimView& view, const BoardPose& pose) {
-    const Mat3 turn = view.view_from_world * pose.world_from_board;
+  ToBoard(const SimView& view, const BodyPose& pose) {
+    const Mat3 turn = view.view_from_world * pose.world_from_body;
     const Vec3 a{turn.row[0].x, turn.row[1].x, turn.row[2].x}, b{turn.row[0].y, turn.row[1].y, turn.row[2].y};
     const Vec3 c = view.view_from_world * pose.origin_mm + view.offset_mm;
     const double scale = 1 / dot(a, cross(b, c));
@@ -39,10 +39,10 @@ struct ToBoard {
   }
 };
 
-BoardPose between(const BoardPose& a, const BoardPose& b, double t) {
-  BoardPose pose;
+BodyPose between(const BodyPose& a, const BodyPose& b, double t) {
+  BodyPose pose;
   for (std::size_t i = 0; i < 3; ++i)
-    pose.world_from_board.row[i] = mix(a.world_from_board.row[i], b.world_from_board.row[i], t);
+    pose.world_from_body.row[i] = mix(a.world_from_body.row[i], b.world_from_body.row[i], t);
   pose.origin_mm = mix(a.origin_mm, b.origin_mm, t);
   return pose;
 }
@@ -63,11 +63,11 @@ void blur_row(const float* from, float* to, int count, std::size_t stride, std::
 // One exposure by one camera.
 class HeldBoard::Shot {
  public:
-  Shot(const HeldBoard& board, const Eye& eye, const BoardPose& opened, const BoardPose& closed)
+  Shot(const HeldBoard& board, const Eye& eye, const BodyPose& opened, const BodyPose& closed)
       : board_(board), eye_(eye), first_(eye.view, opened), last_(eye.view, closed) {
     for (int k = 0; k < kSamples; ++k)
       at_.emplace_back(eye.view, between(opened, closed, (k + 0.5) / kSamples));
-    const BoardPose middle = between(opened, closed, 0.5);
+    const BodyPose middle = between(opened, closed, 0.5);
     lit_ = 0.55 + 0.45 * std::abs(dot(middle.normal(), normalised(middle.origin_mm - Vec3{-200, -200, 0})));
     frame(opened);
     frame(closed);
@@ -110,7 +110,7 @@ class HeldBoard::Shot {
     const BoardPrint::Spot printed = board_.print_.at(p.x, p.y);
     return {printed.cell, float((printed.dark ? kBlack : kWhite) * lit_)};
   }
-  void frame(const BoardPose& pose) {
+  void frame(const BodyPose& pose) {
     const BoardPattern& b = board_.pattern_;
     for (const double x : {-b.square_mm - b.margin_mm, b.corners_x * b.square_mm + b.margin_mm})
       for (const double y : {-b.square_mm - b.margin_mm, b.corners_y * b.square_mm + b.margin_mm}) {
@@ -129,7 +129,7 @@ class HeldBoard::Shot {
   int left_ = 1'000'000, right_ = -1'000'000, top_ = 1'000'000, bottom_ = -1'000'000;
 };
 
-BoardPose HeldPlace::pose(const BoardPattern& pattern) const {
+BodyPose HeldPlace::pose(const BoardPattern& pattern) const {
   const Mat3 turn = rotation(0, -radians(yaw_deg), 0) *
                     (rotation(radians(pitch_deg), 0, 0) * rotation(0, 0, radians(roll_deg)));
   return with_middle_at({right_mm, down_mm, distance_mm}, turn, pattern);
@@ -162,7 +162,7 @@ void HeldBoard::prepare(const SimView& view, Eye& eye) {
   });
 }
 
-Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed,
+Picture HeldBoard::photograph(const Eye& eye, const BodyPose& opened, const BodyPose& closed,
                               std::uint64_t noise_seed) {
   const int width = eye.view.width_px, height = eye.view.height_px;
   std::vector<float> light(eye.plane_x.size(), float(kRoom));
@@ -210,8 +210,7 @@ Picture HeldBoard::develop(const std::vector<float>& light, const Eye& eye, std:
   return out;
 }
 
-PicturePair HeldBoard::photograph(const BoardPose& opened, const BoardPose& closed,
-                                  std::uint64_t noise_seed) {
+PicturePair HeldBoard::photograph(const BodyPose& opened, const BodyPose& closed, std::uint64_t noise_seed) {
   Picture left = photograph(left_, opened, closed, 2 * noise_seed);
   return {std::move(left), photograph(right_, opened, closed, 2 * noise_seed + 1)};
 }

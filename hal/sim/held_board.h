@@ -23,7 +23,7 @@ namespace relievo::hal::sim {
 struct HeldPlace {
   double right_mm = 0, down_mm = 0, distance_mm = 560;
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
-  BoardPose pose(const BoardPattern& pattern) const;
+  BodyPose pose(const BoardPattern& pattern) const;
 };
 
 class HeldBoard {
@@ -34,7 +34,7 @@ class HeldBoard {
   const SimRig& rig() const { return rig_; }
   // The board is at `opened` when the shutter opens and at `closed` when it closes; in between it moves
   // evenly. Turns of a few degrees, please.
-  PicturePair photograph(const BoardPose& opened, const BoardPose& closed, std::uint64_t noise_seed);
+  PicturePair photograph(const BodyPose& opened, const BodyPose& closed, std::uint64_t noise_seed);
 
  private:
   struct Eye {
@@ -43,7 +43,7 @@ class HeldBoard {
   };
   class Shot;
   void prepare(const SimView& view, Eye& eye);
-  Picture photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed,
+  Picture photograph(const Eye& eye, const BodyPose& opened, const BodyPose& closed,
                      std::uint64_t noise_seed);
   Picture develop(const std::vector<float>& light, const Eye& eye, std::uint64_t noise_seed);
 

@@ -42,7 +42,7 @@ Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const 
   // Turned as a head in the same pose would be, its middle on the left camera's axis.
   const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
   const HeadPose& at = o.pose;
-  std::vector<BoardPose> poses{
+  std::vector<BodyPose> poses{
       with_middle_at(rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0},
                      rotation(radians(at.pitch_deg), radians(at.yaw_deg), radians(at.roll_deg)), o.board)};
   if (!o.board_in_this_pose) {

@@ -96,7 +96,7 @@ class KeyFile final : public KeySource {
   Result<void> must_give_way() const {
     std::error_code ignored;
     if (fs::is_directory(file_, ignored))
-      return Error{Errc::InvalidInput, "is a folder, and no key: name another"}.at(file_.native());
+      return invalid("is a folder, and no key: name another").at(file_.native());
     if (beside_) return {};
     std::size_t size = 0;
     RELIEVO_TRY_ASSIGN(auto old, SecretKey::make());
@@ -104,7 +104,7 @@ class KeyFile final : public KeySource {
     if (!room) return room.error().code == Errc::NotFound ? Result<void>() : room.error();
     if (size == 0 || is_sealed_by_tpm(room->bytes().first(size))) return {};
     if (!read_key_of(file_, old, false))
-      return Error{Errc::InvalidInput, "is there, and is no key: name another"}.at(file_.native());
+      return invalid("is there, and is no key: name another").at(file_.native());
     return read_key_of(file_, old, true);  // whose it is could not be told otherwise
   }
   bool is_to_be_sealed() const {

@@ -9,7 +9,6 @@
 
 #include "storage/byte_order.h"
 #include "storage/cipher/age.h"
-#include "storage/cipher/sodium_bytes.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -22,9 +21,7 @@ constexpr std::size_t kFileKeyBytes = 16, kSaltBytes = 16, kTagBytes = 16, kPiec
 constexpr int kWorkFactor = 17, kMostWorkFactor = 20;  // scrypt's N is two to this power
 constexpr int kNoPadding = sodium_base64_VARIANT_ORIGINAL_NO_PADDING;
 
-Error no_age_file() {
-  return {Errc::InvalidInput, "this is no sealed file of age, or it was changed or cut"};
-}
+Error no_age_file() { return invalid("this is no sealed file of age, or it was changed or cut"); }
 
 std::string base64(std::span<const std::byte> bytes) {
   std::string text(sodium_base64_encoded_len(bytes.size(), kNoPadding), '\0');
@@ -115,9 +112,7 @@ constexpr std::string_view kBech32 = "qpzry9x8gf2tvdw0s3jn54khce6mua7l";
 bool bech32(std::string_view prefix, std::string text, std::span<std::byte> bytes) {
   constexpr std::size_t kData = 52, kSum = 6;  // letters of five bits
   const bool capitals = std::ranges::none_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
-  if (capitals)
-    std::ranges::transform(text, text.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  if (capitals) std::ranges::transform(text, text.begin(), small_letter);
   if (!text.starts_with(prefix) || text.size() != prefix.size() + 1 + kData + kSum ||
       text[prefix.size()] != '1')
     return false;
@@ -211,8 +206,7 @@ Result<bool> file_key_in(const Stanza& stanza, const AgeBy& by, std::span<std::b
   if (!from_base64(stanza.words[1], salt) || !from_base64(stanza.body, wrapped) || wrong != std::errc() ||
       end != factor.data() + factor.size() || factor[0] == '0' || work < 1)
     return no_age_file();
-  if (work > kMostWorkFactor)
-    return Error{Errc::InvalidInput, "this file's passphrase asks for more work than is done here"};
+  if (work > kMostWorkFactor) return invalid("this file's passphrase asks for more work than is done here");
   RELIEVO_TRY(stretch(std::get<Passphrase>(by).text, salt, work, key));
   return unwrap_key(key, wrapped, file_key);
 }
@@ -230,8 +224,7 @@ Result<void> mac_of(std::span<const std::byte> file_key, std::string_view header
 Result<AgeRecipient> age_recipient(std::string_view text) {
   AgeRecipient recipient{};
   if (!bech32("age", std::string(text), recipient) || text.starts_with("AGE"))
-    return Error{Errc::InvalidInput,
-                 "this is no recipient: it begins with age1 and has 62 letters and figures"};
+    return invalid("this is no recipient: it begins with age1 and has 62 letters and figures");
   return recipient;
 }
 
@@ -242,7 +235,7 @@ Result<SecretKey> age_identity(std::string_view text) {
     if (bech32("age-secret-key-", std::string(text.substr(at, end - at)), key.bytes())) return key;
     at = end + 1;
   }
-  return Error{Errc::InvalidInput, "there is no key of age in it: a line begins with AGE-SECRET-KEY-1"};
+  return invalid("there is no key of age in it: a line begins with AGE-SECRET-KEY-1");
 }
 
 Result<std::vector<std::byte>> age_seal(const AgeTo& to, std::span<const std::byte> plain) {
@@ -256,7 +249,7 @@ Result<std::vector<std::byte>> age_seal(const AgeTo& to, std::span<const std::by
     AgeRecipient share{};
     crypto_scalarmult_base(raw(share), raw(once.bytes()));
     if (!agree(once, *recipient, share, *recipient, key))
-      return Error{Errc::InvalidInput, "nothing can be sealed to this recipient: it is a weak key"};
+      return invalid("nothing can be sealed to this recipient: it is a weak key");
     header += "-> X25519 " + base64(share) + "\n";
   } else {
     std::array<std::byte, kSaltBytes> salt{};
@@ -298,7 +291,7 @@ Result<std::vector<std::byte>> age_open(const AgeBy& by, std::span<const std::by
     if (header->stanzas[i].words[0] == "scrypt" && header->stanzas.size() != 1) return no_age_file();
     RELIEVO_TRY_ASSIGN(found, file_key_in(header->stanzas[i], by, file_key.bytes()));
   }
-  if (!found) return Error{Errc::InvalidInput, "this file was sealed to another key or passphrase"};
+  if (!found) return invalid("this file was sealed to another key or passphrase");
   std::array<std::byte, 32> mac{};
   RELIEVO_TRY(mac_of(file_key.bytes(), header->signed_part, mac));
   if (sodium_memcmp(mac.data(), header->mac.data(), mac.size()) != 0) return no_age_file();

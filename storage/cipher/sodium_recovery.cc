@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "storage/byte_order.h"
 #include "storage/cipher/recovery.h"
-#include "storage/cipher/sodium_bytes.h"
 #include "storage/sodium_sha256.h"
 #include "storage/text.h"
 
@@ -66,24 +66,22 @@ Result<RecoveryBits> bits_of(std::string_view words) {
   for (std::size_t at = 0; (at = words.find_first_not_of(kSpace, at)) != std::string_view::npos; ++count) {
     std::string word(words.substr(at, std::min(words.find_first_of(kSpace, at), words.size()) - at));
     at += word.size();
-    std::ranges::transform(word, word.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c; });
+    std::ranges::transform(word, word.begin(), small_letter);
     const auto found = std::ranges::lower_bound(list, std::string_view(word));
     if (found == list.end() || *found != word)
-      return Error{Errc::InvalidInput, "this is none of the words: look at the sheet again"}.at(
-          "word " + std::to_string(count + 1));
+      return invalid("this is none of the words: look at the sheet again")
+          .at("word " + std::to_string(count + 1));
     const auto index = std::size_t(found - list.begin());
     for (std::size_t i = 0; count < kRecoveryWords && i < kWordBits; ++i)
       given[count * kWordBits + i] = ((index >> (kWordBits - 1 - i)) & 1) != 0;
   }
-  if (count != kRecoveryWords)
-    return Error{Errc::InvalidInput, "the sheet has twelve words: give all of them, in their order"};
+  if (count != kRecoveryWords) return invalid("the sheet has twelve words: give all of them, in their order");
   for (std::size_t i = 0; i < 8 * kRecoveryBytes; ++i)
     if (given[i]) bits[i / 8] |= std::byte{1} << (7 - i % 8);
   const Sha256 digest = sha256(bits);
   for (std::size_t i = 0; i < given.size(); ++i)
     if (given[i] != bit_of(bits, digest, i))
-      return Error{Errc::InvalidInput, "the words do not hang together: one is wrong, or out of its place"};
+      return invalid("the words do not hang together: one is wrong, or out of its place");
   return bits;
 }
 

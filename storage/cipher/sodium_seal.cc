@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "storage/cipher/sodium_bytes.h"
+#include "storage/byte_order.h"
 
 namespace relievo::storage {
 namespace {
@@ -139,7 +139,7 @@ Result<void> read_key(std::string_view text, SecretKey& key) {
           0 ||
       got != SecretKey::kBytes) {
     key.wipe();
-    return Error{Errc::InvalidInput, "is no key of a store: 64 hexadecimal digits"};
+    return invalid("is no key of a store: 64 hexadecimal digits");
   }
   return {};
 }

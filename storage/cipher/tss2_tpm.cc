@@ -30,13 +30,13 @@ Error refused(Literal what, TSS2_RC number) {
   return Error{Errc::IoFailed, what}.at(text);
 }
 Error another() {
-  return {Errc::InvalidInput,
-          "the store's key was sealed by another board's TPM, or by this one before it was cleared: relievo "
-          "store recover, with the recovery words"};
+  return invalid(
+      "the store's key was sealed by another board's TPM, or by this one before it was cleared: relievo "
+      "store recover, with the recovery words");
 }
 Error changed() {
-  return {Errc::InvalidInput,
-          "the store's key, sealed by the TPM, was changed: put its file back, or relievo store recover"};
+  return invalid(
+      "the store's key, sealed by the TPM, was changed: put its file back, or relievo store recover");
 }
 
 struct Freed {

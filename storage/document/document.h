@@ -71,10 +71,6 @@ class Document {
  public:
   // Borrows the bytes. All of it is checked against its checksums.
   static Result<Document> open(std::span<const std::byte> bytes);
-  Document(Document&&) noexcept;
-  Document& operator=(Document&&) = delete;
-  ~Document();
-
   const DocumentHead& head() const { return head_; }
   struct Picture {
     std::vector<std::byte> bytes;
@@ -91,8 +87,8 @@ class Document {
 
  private:
   struct Inside;
-  explicit Document(std::unique_ptr<Inside> inside);
-  std::unique_ptr<Inside> inside_;
+  Document() = default;
+  std::shared_ptr<Inside> inside_;
   DocumentHead head_;
 };
 

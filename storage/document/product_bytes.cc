@@ -133,7 +133,7 @@ bool fits(const Backdrop& backdrop) {
   return backdrop.at_mm.size() == size && backdrop.rgba.size() == size;
 }
 
-Error broken() { return {Errc::InvalidInput, "what was saved does not hang together"}; }
+Error broken() { return invalid("what was saved does not hang together"); }
 
 constexpr std::size_t kPictureHeadBytes = 4 + 4 + 1;
 

@@ -65,10 +65,10 @@ Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar) {
     const char* name = archive_entry_pathname(entry);
     if (archive_entry_filetype(entry) == AE_IFDIR) return strange;  // tar packs a folder before what is in it
     if (name == nullptr || !is_plain_name(name))
-      return Error{Errc::InvalidInput, "a file of the bundle would lie outside of it: nothing was taken"}.at(
-          name == nullptr ? "" : name);
+      return invalid("a file of the bundle would lie outside of it: nothing was taken")
+          .at(name == nullptr ? "" : name);
     if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) != nullptr)
-      return Error{Errc::InvalidInput, "is no file but a link or a device: nothing was taken"}.at(name);
+      return invalid("is no file but a link or a device: nothing was taken").at(name);
     const auto size = std::size_t(std::max<la_int64_t>(0, archive_entry_size(entry)));
     if (size > left) return strange;
     left -= size;

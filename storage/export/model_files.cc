@@ -14,8 +14,7 @@
 #include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
 #include "storage/byte_order.h"
-#include "storage/export/format/mesh_writers.h"
-#include "storage/export/format/number_text.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 namespace {
@@ -121,7 +120,7 @@ Result<std::vector<std::byte>> png_of(int width_px, int height_px, const Pixels&
   const auto bytes = std::as_bytes(std::span(pixels));
   const int row_bytes = width_px * bytes_per_pixel(format);
   if (bytes.size() != std::size_t(row_bytes) * std::size_t(height_px))
-    return Error{Errc::InvalidInput, "the picture's size does not fit its pixels"};
+    return invalid("the picture's size does not fit its pixels");
   return hal::encode_png({bytes.data(), width_px, height_px, row_bytes, format}, {.is_srgb = true});
 }
 

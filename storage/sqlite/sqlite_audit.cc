@@ -160,7 +160,7 @@ Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::s
 Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys, const AuditEvent& event,
                                        WallTime at) {
   if (event.what.empty() || event.what.size() > kMaxNameBytes || event.detail.size() > kMaxTextBytes) {
-    return Error{Errc::InvalidInput, "a line of the audit log needs a word, and has a longest length"};
+    return invalid("a line of the audit log needs a word, and has a longest length");
   }
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
   const auto detail = sealed_detail(keys, end.number + 1, event.detail);
@@ -262,8 +262,7 @@ Result<void> SqliteStore::append_audit(const AuditEvent& event) {
   constexpr std::string_view kOwn[] = {kSettingChanged,   kSubjectAdded,      kSubjectErased, kEnrolmentAdded,
                                        kEnrolmentRenewed, kRecoveryWordsMade, kRekeyed};
   if (std::ranges::find(kOwn, event.what) != std::end(kOwn))
-    return Error{Errc::InvalidInput, "only the store itself writes this line of the audit log"}.at(
-        event.what);
+    return invalid("only the store itself writes this line of the audit log").at(event.what);
   // What is exported from a full disk makes room there, and may not fail for its line.
   const Result<void> done = change_in_reserve([&](WallTime at) { return append_line(event, at); });
   if (done) set_aside_reserve(home_, reserve_bytes_);
@@ -333,8 +332,7 @@ Result<std::string> SqliteStore::setting(std::string_view key) {
 
 Result<void> SqliteStore::set_setting(std::string_view key, std::string_view value) {
   if (!is_name(key) || value.size() > kMaxTextBytes) {
-    return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}
-        .at(key);
+    return invalid("a setting needs a short key, and a value of at most a million bytes").at(key);
   }
   // Signing in writes one: on a full disk nobody could come in and make room.
   const Result<void> done = change_in_reserve([&](WallTime at) -> Result<void> {

@@ -11,8 +11,7 @@ namespace relievo::storage {
 namespace {
 
 Result<void> check_entry(const pipeline::StereoCalibration& calibration, std::string_view note) {
-  if (note.size() > kMaxTextBytes)
-    return Error{Errc::InvalidInput, "the note is longer than the store takes"};
+  if (note.size() > kMaxTextBytes) return invalid("the note is longer than the store takes");
   return check_calibration(calibration);
 }
 

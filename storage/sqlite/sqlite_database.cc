@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "hal/base/words.h"
+
 namespace relievo::storage {
 namespace {
 
@@ -29,38 +31,39 @@ int system_errno_of(sqlite3* db) {
   return cause;
 }
 
-}  // namespace
+constexpr Meaning kMeanings[] = {
+    {{SQLITE_FULL},
+     Errc::MediaFull,
+     "the disk is full, nothing was changed: erase subjects or make room, then try again"},
+    {{SQLITE_INTERRUPT}, Errc::Cancelled, "was stopped; nothing was changed"},
+    {{SQLITE_NOMEM}, Errc::OutOfMemory, "not enough memory for this; nothing was changed"},
+    {{SQLITE_BUSY, SQLITE_LOCKED},
+     Errc::Timeout,
+     "another program is using the store: close it, then try again"},
+    {{SQLITE_CORRUPT, SQLITE_NOTADB},
+     Errc::StoreCorrupt,
+     "the store is damaged: stop using it and restore a copy"},
+    {{SQLITE_IOERR, SQLITE_CANTOPEN},
+     Errc::IoFailed,
+     "the disk could not be read or written: check the disk and its permissions"},
+    {{SQLITE_READONLY, SQLITE_PERM, SQLITE_AUTH},
+     Errc::IoFailed,
+     "the store may not be written here: check owner and permissions"},
+    {{SQLITE_TOOBIG}, Errc::InvalidInput, "this is larger than the store takes"},
+    {{}, Errc::LibraryFailed, "SQLite refused a request; please report this"}};
 
+// The error for what `code` says; `where` is the store's path.
 Error sqlite_error(int code, int system_errno, std::string_view where) {
-  const auto made = [&](Errc errc, Literal what) { return Error{errc, what, system_errno}.at(where); };
   const bool full = system_errno == ENOSPC || system_errno == EDQUOT || system_errno == EFBIG;
   const int family = code & 0xff;
   if (code == SQLITE_IOERR_NOMEM) code = SQLITE_NOMEM;
   else if (full && (family == SQLITE_IOERR || family == SQLITE_CANTOPEN)) code = SQLITE_FULL;
-  switch (code & 0xff) {
-    case SQLITE_FULL:
-      return made(Errc::MediaFull,
-                  "the disk is full, nothing was changed: erase subjects or make room, then try again");
-    case SQLITE_INTERRUPT: return made(Errc::Cancelled, "was stopped; nothing was changed");
-    case SQLITE_NOMEM: return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      return made(Errc::Timeout, "another program is using the store: close it, then try again");
-    case SQLITE_CORRUPT:
-    case SQLITE_NOTADB:
-      return made(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
-    case SQLITE_IOERR:
-    case SQLITE_CANTOPEN:
-      return made(Errc::IoFailed,
-                  "the disk could not be read or written: check the disk and its permissions");
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
-      return made(Errc::IoFailed, "the store may not be written here: check owner and permissions");
-    case SQLITE_TOOBIG: return made(Errc::InvalidInput, "this is larger than the store takes");
-    default: return made(Errc::LibraryFailed, "SQLite refused a request; please report this");
-  }
+  Error error = meaning_of(code & 0xff, kMeanings).at(where);
+  error.sys_errno = system_errno;
+  return error;
 }
+
+}  // namespace
 
 Statement::~Statement() { sqlite3_finalize(handle_); }
 
@@ -126,8 +129,7 @@ void Database::close() {
 Result<void> Database::open(bool writable) {
   const int flags = SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_FULLMUTEX | SQLITE_OPEN_EXRESCODE |
                     (writable ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY);
-  const int code = sqlite3_open_v2(where_.c_str(), &handle_, flags, nullptr);
-  if (code != SQLITE_OK) return error(code);
+  RELIEVO_TRY(done(sqlite3_open_v2(where_.c_str(), &handle_, flags, nullptr)));
   // A store is data, never a program: no schema in it may run what we did not write.
   for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
                                       {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
@@ -137,15 +139,13 @@ Result<void> Database::open(bool writable) {
                                       {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0},
                                       {SQLITE_DBCONFIG_DQS_DDL, 0},
                                       {SQLITE_DBCONFIG_DQS_DML, 0}}) {
-    const int set = sqlite3_db_config(handle_, option, value, nullptr);
-    if (set != SQLITE_OK) return error(set);
+    RELIEVO_TRY(done(sqlite3_db_config(handle_, option, value, nullptr)));
   }
   return tidy_up_on_close(false);
 }
 
 Result<void> Database::tidy_up_on_close(bool on) {
-  const int code = sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 0 : 1, nullptr);
-  return code == SQLITE_OK ? Result<void>() : error(code);
+  return done(sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 0 : 1, nullptr));
 }
 
 void Database::stop_at(const std::atomic<bool>* flag) {
@@ -165,22 +165,21 @@ Result<bool> Database::empty_log() {
   if (busy != 0) return false;
   // SQLite cuts it off and leaves it to the system when: until then a power cut brings all of it back.
   sqlite3_file* log = log_of(handle_);
-  const int code = log == nullptr ? SQLITE_OK : log->pMethods->xSync(log, SQLITE_SYNC_FULL);
-  return code == SQLITE_OK ? Result<bool>(true) : error(code);
+  if (log != nullptr) RELIEVO_TRY(done(log->pMethods->xSync(log, SQLITE_SYNC_FULL)));
+  return true;
 }
 
+Result<void> Database::done(int code) const { return code == SQLITE_OK ? Result<void>() : error(code); }
 Error Database::error(int code) const { return sqlite_error(code, system_errno_of(handle_), where_); }
 Error Database::error() const { return error(sqlite3_extended_errcode(handle_)); }
 
 Result<void> Database::run(const char* sql) {
-  const int code = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr);
-  return code == SQLITE_OK ? Result<void>() : error(code);
+  return done(sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr));
 }
 
 Result<Statement> Database::compile(std::string_view sql) {
   sqlite3_stmt* handle = nullptr;
-  const int code = sqlite3_prepare_v2(handle_, sql.data(), int(sql.size()), &handle, nullptr);
-  if (code != SQLITE_OK) return error(code);
+  RELIEVO_TRY(done(sqlite3_prepare_v2(handle_, sql.data(), int(sql.size()), &handle, nullptr)));
   return Statement(handle, where_);
 }
 
@@ -193,7 +192,7 @@ Result<Blob> Blob::open(Database& database, const char* table, const char* colum
   sqlite3_blob* handle = nullptr;
   const int code = sqlite3_blob_open(database.handle_, "main", table, column, row, writable ? 1 : 0, &handle);
   Blob blob(database, handle);
-  if (code != SQLITE_OK) return database.error(code);
+  RELIEVO_TRY(database.done(code));
   return blob;
 }
 
@@ -204,8 +203,7 @@ std::size_t Blob::size() const { return std::size_t(sqlite3_blob_bytes(handle_))
 Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
   for (std::size_t done = 0; done < bytes.size(); done += kBlobPieceBytes) {
     const auto piece = bytes.subspan(done, std::min(kBlobPieceBytes, bytes.size() - done));
-    const int code = sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at + done));
-    if (code != SQLITE_OK) return database_.error(code);
+    RELIEVO_TRY(database_.done(sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at + done))));
   }
   return {};
 }
@@ -214,8 +212,7 @@ Result<void> Blob::read(std::size_t at, std::span<std::byte> bytes) {
   if (size() < at + bytes.size()) return database_.error(SQLITE_CORRUPT);
   for (std::size_t done = 0; done < bytes.size(); done += kBlobPieceBytes) {
     const auto piece = bytes.subspan(done, std::min(kBlobPieceBytes, bytes.size() - done));
-    const int code = sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at + done));
-    if (code != SQLITE_OK) return database_.error(code);
+    RELIEVO_TRY(database_.done(sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at + done))));
   }
   return {};
 }
@@ -233,10 +230,9 @@ Result<void> Database::copy_to(const std::filesystem::path& target) {
 }
 
 Result<void> Database::lie_in(std::span<std::byte> room, std::size_t used, bool writable) {
-  const int code = sqlite3_deserialize(
-      handle_, "main", reinterpret_cast<unsigned char*>(room.data()), static_cast<sqlite3_int64>(used),
-      static_cast<sqlite3_int64>(room.size()), writable ? 0 : SQLITE_DESERIALIZE_READONLY);
-  return code == SQLITE_OK ? Result<void>() : error(code);
+  return done(sqlite3_deserialize(handle_, "main", reinterpret_cast<unsigned char*>(room.data()),
+                                  static_cast<sqlite3_int64>(used), static_cast<sqlite3_int64>(room.size()),
+                                  writable ? 0 : SQLITE_DESERIALIZE_READONLY));
 }
 
 Transaction::~Transaction() {

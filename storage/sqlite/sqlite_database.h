@@ -28,9 +28,6 @@ struct sqlite3_stmt;
 
 namespace relievo::storage {
 
-// The error for what `code` says; `where` is the store's path.
-Error sqlite_error(int code, int system_errno, std::string_view where);
-
 struct Zeros {  // a blob of so many, to be written afterwards
   std::int64_t bytes = 0;
 };
@@ -142,6 +139,7 @@ class Database {
 
  private:
   friend class Blob;
+  Result<void> done(int code) const;  // of what SQLite answered
   Error error(int code) const;
   Result<Statement> compile(std::string_view sql);
   sqlite3* handle_ = nullptr;

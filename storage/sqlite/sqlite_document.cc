@@ -29,7 +29,7 @@ constexpr const char* kSchema =
 static_assert(kDocumentId == 1380734543 && kForm == 3);
 
 Error damaged() {
-  return {Errc::InvalidInput, "this saved reconstruction is cut off or damaged: take another copy of it"};
+  return invalid("this saved reconstruction is cut off or damaged: take another copy of it");
 }
 
 // All is in memory: but for memory itself, what SQLite finds wrong is wrong with the bytes.
@@ -152,9 +152,9 @@ Result<void> check_header(std::span<const std::byte> bytes) {
                     std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic)) &&
                     header<std::uint32_t>(bytes, 68) == kDocumentId;
   if (!ours)
-    return Error{Errc::InvalidInput,
-                 "this is no saved reconstruction: choose a file that the technician's page or 'relievo "
-                 "reconstruct --save' has written"};
+    return invalid(
+        "this is no saved reconstruction: choose a file that the technician's page or 'relievo "
+        "reconstruct --save' has written");
   if (header<std::uint32_t>(bytes, 60) > kForm)
     return Error{Errc::Unsupported, "this reconstruction was saved by a newer version: update Relievo"};
   const std::size_t page = header<std::uint16_t>(bytes, 16);
@@ -167,8 +167,7 @@ Result<void> check_header(std::span<const std::byte> bytes) {
 Result<std::vector<std::byte>> make_document(const DocumentParts& parts) {
   return without_exceptions({}, [&]() -> Result<std::vector<std::byte>> {
     std::vector<std::byte> room(room_for(parts));
-    if (room.size() > kMaxDocumentBytes)
-      return Error{Errc::InvalidInput, "this reconstruction is too large to be saved"};
+    if (room.size() > kMaxDocumentBytes) return invalid("this reconstruction is too large to be saved");
     Database database(":memory:");
     RELIEVO_TRY(database.open(true));
     RELIEVO_TRY(database.lie_in(room, 0, true));
@@ -229,13 +228,10 @@ struct Document::Inside {
   }
 };
 
-Document::Document(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
-Document::Document(Document&&) noexcept = default;
-Document::~Document() = default;
-
 Result<Document> Document::open(std::span<const std::byte> bytes) {
   RELIEVO_TRY(check_header(bytes));
-  Document document(std::make_unique<Inside>());
+  Document document;
+  document.inside_ = std::make_shared<Inside>();
   Inside& inside = *document.inside_;
   // Read-only: SQLite asks for bytes it might write to, and does not.
   const std::span<std::byte> room(const_cast<std::byte*>(bytes.data()), bytes.size());

@@ -20,10 +20,10 @@ constexpr std::string_view kEnrolments =
 
 Result<void> SqliteStore::check_texts(const NewEnrolment& enrolment) {
   if (!is_name(enrolment.consent.wording) || !is_name(enrolment.consent.language)) {
-    return Error{Errc::InvalidInput, "a consent names its wording and its language"};
+    return invalid("a consent names its wording and its language");
   }
   if (enrolment.algorithms.size() > kMaxTextBytes || enrolment.report_json.size() > kMaxTextBytes) {
-    return Error{Errc::InvalidInput, "algorithms or report are longer than the store takes"};
+    return invalid("algorithms or report are longer than the store takes");
   }
   return {};
 }
@@ -74,7 +74,7 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, cons
   return without_exceptions(database_->where(), [&]() -> Result<EnrolmentId> {
     RELIEVO_TRY(check_texts(enrolment));
     RELIEVO_TRY_ASSIGN(const auto blob, encode_model(enrolment.model));
-    if (enrolment.renews && mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
+    if (enrolment.renews && mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_copies(database_->file()));
     const auto added = change([&](WallTime at) -> Result<EnrolmentId> {
       if (enrolment.calibration_revision != 0) {
         RELIEVO_TRY_ASSIGN(const auto known,

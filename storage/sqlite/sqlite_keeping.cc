@@ -49,9 +49,8 @@ class SqliteKeeping final : public StoreKeeping {
     return without_exceptions(backup.native(), [&]() -> Result<std::vector<SubjectId>> {
       Database copy(backup);
       const auto end = end_of(copy);
-      const Error another =
-          Error{Errc::InvalidInput, "this is no copy of this store, or a damaged or an older version's one"}
-              .at(backup.native());
+      const Error another = invalid("this is no copy of this store, or a damaged or an older version's one")
+                                .at(backup.native());
       if (!end && end.error().code != Errc::StoreCorrupt) return end.error();
       if (!end || !*end) return another;
       RELIEVO_TRY_ASSIGN(const bool same, goes_on_from(*store, **end));
@@ -79,8 +78,7 @@ class SqliteKeeping final : public StoreKeeping {
       const bool is_new = !std::filesystem::exists(to.file, ignored);
       by_it.keys = key_file(to.file, false, NextKey::Plain, is_new ? dir_ : to.file);
       if (!is_new && !SqliteStore::open(dir_, clock_, by_it))
-        return Error{Errc::InvalidInput, "this file is there, and is not this store's key: name another"}.at(
-            to.file.native());
+        return invalid("this file is there, and is not this store's key: name another").at(to.file.native());
       return rekey(*store, *by_it.keys);
     }
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
@@ -121,7 +119,7 @@ class SqliteKeeping final : public StoreKeeping {
   }
   // What a copy replaces is lost for ever: a key, a store that a kiosk is writing to, another store's copy.
   Result<void> must_be_a_place_for_a_copy(SqliteStore& store, const std::filesystem::path& file) const {
-    const auto refused = [&](Literal what) { return Error{Errc::InvalidInput, what}.at(file.native()); };
+    const auto refused = [&](Literal what) { return invalid(what).at(file.native()); };
     std::error_code ignored;
     RELIEVO_TRY(must_lie_outside_stores(file));
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -146,7 +144,7 @@ class SqliteKeeping final : public StoreKeeping {
   }
   static Result<void> rekey(SqliteStore& store, KeySource& to) {
     RELIEVO_TRY(store.keys_->check_recovery(*store.database_));
-    RELIEVO_TRY(remove_old_copies(store.database_->file()));
+    RELIEVO_TRY(remove_copies(store.database_->file()));
     const auto changed = store.change([&](WallTime at) -> Result<void> {
       RELIEVO_TRY(store.keys_->rekey(*store.database_, to, at));
       RELIEVO_TRY_ASSIGN(auto trace, StoreKeys::recovery_trace(*store.database_));
@@ -164,8 +162,7 @@ class SqliteKeeping final : public StoreKeeping {
     RELIEVO_TRY_ASSIGN(const auto keys, StoreKeys::make(options_.keys));
     const auto opens = keys->load(store, true);
     if (opens || opens.error().code != Errc::InvalidInput) return {};
-    return Error{Errc::InvalidInput, "the file of --key is there, and is not this store's key: name another"}
-        .at(dir_.native());
+    return invalid("the file of --key is there, and is not this store's key: name another").at(dir_.native());
   }
   Result<std::unique_ptr<SqliteStore>> open(OpenMode mode) {
     SqliteStoreOptions options = options_;
@@ -238,8 +235,8 @@ Result<void> SqliteStore::check_subjects() {
     if (std::ranges::equal(row.blob(4), keys_->name_hash(subject.name)) &&
         std::ranges::equal(row.blob(5), keys_->code_hash(code)))
       return {};
-    return Error{Errc::StoreCorrupt, "this person would not be found by name or code: restore a copy"}.at(
-        "subject " + std::to_string(row.integer(0)) + ", name_hash or code_hash");
+    return corrupt(subject.id, "this person would not be found by name or code: restore a copy",
+                   ", name_hash or code_hash");
   };
   RELIEVO_TRY(
       database_->each("SELECT id, created_at_ms, name, code, name_hash, code_hash FROM subject "
@@ -251,17 +248,15 @@ Result<void> SqliteStore::check_subjects() {
                          "what = 'subject.erased' WHERE code_hash IS NOT NULL"));
   RELIEVO_TRY_ASSIGN(const auto again, erased_and_back(*database_, *keys_));
   if (!again.empty())
-    return Error{
-        Errc::StoreCorrupt,
-        "this person was erased after this copy of the store was made: start the kiosk on it once, and they are again"}
-        .at("subject " + std::to_string(number(again.front())));
+    return corrupt(
+        again.front(),
+        "this person was erased after this copy of the store was made: start the kiosk on it once, and they are again");
   RELIEVO_TRY_ASSIGN(
       const std::int64_t lost,
       database_->integer("SELECT id FROM subject WHERE code_hash IS NULL AND NOT EXISTS (SELECT 1 FROM "
                          "audit WHERE what = 'subject.erased' AND subject_id = subject.id)"));
   if (lost != 0)
-    return Error{Errc::StoreCorrupt, "this person has lost their code without an erasure: restore a copy"}.at(
-        "subject " + std::to_string(lost));
+    return corrupt(SubjectId{lost}, "this person has lost their code without an erasure: restore a copy");
   RELIEVO_TRY_ASSIGN(const std::int64_t traces, database_->integer("SELECT plain_traces FROM store_info"));
   if (traces != 0)
     return Error{
@@ -269,8 +264,7 @@ Result<void> SqliteStore::check_subjects() {
         "names may still be read in the store's free pages: make room for a second copy, then open it again"}
         .at(database_->where());
   if (back != 0)
-    return Error{Errc::StoreCorrupt, "this person was erased, and was put back: erase them again"}.at(
-        "subject " + std::to_string(back));
+    return corrupt(SubjectId{back}, "this person was erased, and was put back: erase them again");
   return {};
 }
 

@@ -56,9 +56,7 @@ Result<void> KeySlots::open(SubjectId id) {
   blob_.reset();
   RELIEVO_TRY_ASSIGN(const std::int64_t there,
                      database_.integer("SELECT 1 FROM subject_key WHERE block = ?", block));
-  if (there == 0 && !to_write_)
-    return Error{Errc::StoreCorrupt, "the store has lost this person's key: restore a copy"}.at(
-        "subject " + std::to_string(number(id)));
+  if (there == 0 && !to_write_) return corrupt(id, "the store has lost this person's key: restore a copy");
   if (there == 0)
     RELIEVO_TRY(database_.run("INSERT INTO subject_key (block, slots) VALUES (?, ?)", block,
                               Zeros{kHead + kPerBlock * std::int64_t(sizeof(Slot))}));

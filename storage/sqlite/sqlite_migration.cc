@@ -16,8 +16,7 @@
 namespace relievo::storage {
 namespace {
 
-// The migrations before and after the sealing of what an older store holds in the clear.
-constexpr std::int64_t kRoomToSeal = 7, kAllSealed = 8;
+constexpr std::int64_t kRoomToSeal = 7;  // the migration before the sealing
 
 std::filesystem::path with_end(const std::filesystem::path& file, const char* end) {
   return file.string() + end;
@@ -48,6 +47,8 @@ Result<void> step(Database& database, std::int64_t from, std::int64_t to, const 
   return transaction.commit();
 }
 
+}  // namespace
+
 Result<void> remove_copies(const std::filesystem::path& database_file, std::int64_t last) {
   bool removed = false;
   for (std::int64_t version = 2; version <= last; ++version) {
@@ -68,8 +69,6 @@ Result<void> remove_copies(const std::filesystem::path& database_file, std::int6
   // A power cut may not bring them back.
   return removed ? sync_directory(database_file.parent_path()) : Result<void>();
 }
-
-}  // namespace
 
 Result<void> copy_whole(Database& database, const std::filesystem::path& target,
                         const std::filesystem::path& unfinished) {
@@ -164,13 +163,4 @@ Result<void> make_current(Database& database, std::int64_t version, StoreKeys& k
   return step(
       database, kRoomToSeal, store_version(), [&] { return seal_the_rest(database, keys); }, nothing);
 }
-
-Result<void> remove_old_copies(const std::filesystem::path& database_file) {
-  return remove_copies(database_file, store_version());
-}
-
-Result<void> remove_plain_copies(const std::filesystem::path& database_file) {
-  return remove_copies(database_file, kAllSealed);
-}
-
 }  // namespace relievo::storage

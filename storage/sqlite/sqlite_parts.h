@@ -95,10 +95,16 @@ Result<void> open_enrolment(const StoreKeys& keys, Enrolment& enrolment, std::sp
 Result<void> seal_consent(Database& database, const StoreKeys& keys, EnrolmentId id, const Consent& consent);
 Result<Consent> open_consent(const StoreKeys& keys, EnrolmentId id, std::span<const std::byte> sealed);
 
+// `part`: of the row, as ", code_hash".
+inline Error corrupt(SubjectId id, Literal what, std::string_view part = {}) {
+  return Error{Errc::StoreCorrupt, what}.at("subject " + std::to_string(number(id)) + std::string(part));
+}
+inline Error corrupt(EnrolmentId id, Literal what) {
+  return Error{Errc::StoreCorrupt, what}.at("enrolment " + std::to_string(number(id)));
+}
 // Of one whose consent or model is gone.
 inline Error half_enrolment(EnrolmentId id) {
-  return Error{Errc::StoreCorrupt, "a record of the store has lost a part of it: restore a copy"}.at(
-      "enrolment " + std::to_string(number(id)));
+  return corrupt(id, "a record of the store has lost a part of it: restore a copy");
 }
 
 // Makes the row, or takes the place of the one that is there. `blob` is a model_blob.h.
@@ -161,10 +167,10 @@ Result<void> check_schema(Database& database);
 Result<void> copy_whole(Database& database, const std::filesystem::path& target,
                         const std::filesystem::path& unfinished);
 
-// relievo.db.before-N, for each N this program can have made.
-Result<void> remove_old_copies(const std::filesystem::path& database_file);
-// Those in which people stand in the clear. What a power cut may have left is found at the next opening.
-Result<void> remove_plain_copies(const std::filesystem::path& database_file);
+// relievo.db.before-N, for each N to `last`: all that this program can have made, or those in which people
+// stand in the clear (kAllSealed). What a power cut may have left is found at the next opening.
+inline constexpr std::int64_t kAllSealed = 8;  // the migration that sealed what an older store held
+Result<void> remove_copies(const std::filesystem::path& database_file, std::int64_t last = store_version());
 
 template <typename Work>
 auto SqliteStore::change(const Work& work) -> decltype(work(WallTime{})) {

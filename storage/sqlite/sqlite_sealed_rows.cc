@@ -225,9 +225,7 @@ Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, E
   {
     RELIEVO_TRY_ASSIGN(const auto row,
                        database.row("SELECT nonce FROM model WHERE enrolment_id = ?", number(id)));
-    if (!row)
-      return Error{Errc::StoreCorrupt, "a record of the store has lost its model: restore a copy"}.at(
-          "enrolment " + std::to_string(number(id)));
+    if (!row) return corrupt(id, "a record of the store has lost its model: restore a copy");
     // A header of another length opens nothing; open_piece() says so, and where.
     if (row->blob(0).size() == header.size()) std::ranges::copy(row->blob(0), header.begin());
   }

@@ -68,7 +68,7 @@ Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
   // Power may have gone in the middle of an erasure, or of the migration that sealed an older store.
   RELIEVO_TRY(erase_again(database, keys, at));
   RELIEVO_TRY(remove_erased_rows(database));
-  RELIEVO_TRY(remove_plain_copies(database.file()));
+  RELIEVO_TRY(remove_copies(database.file(), kAllSealed));
   RELIEVO_TRY(remove_plain_traces(database));
   RELIEVO_TRY(database.empty_log());
   return {};

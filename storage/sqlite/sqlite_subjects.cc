@@ -64,7 +64,7 @@ Result<std::int64_t> SqliteStore::fresh_receipt() {
 Result<SubjectId> SqliteStore::insert_subject(std::string_view name, std::int64_t receipt, WallTime created,
                                               WallTime at) {
   if (!is_name(name)) {
-    return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
+    return invalid("a name has 1 to 200 bytes of UTF-8 and no control characters");
   }
   RELIEVO_TRY(database_->run("INSERT INTO subject (created_at_ms, name) VALUES (?, x'00')", to_ms(created)));
   const SubjectId id{database_->last_row_id()};
@@ -99,9 +99,8 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
       if (skip-- > 0) continue;
       RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, subject.id, query.blob(3)));
       if (by_code && subject.receipt != filter.receipt)
-        return Error{Errc::StoreCorrupt,
-                     "a code leads to somebody else's record: restore a copy of the store"}
-            .at("subject " + std::to_string(number(subject.id)) + ", code_hash");
+        return corrupt(subject.id, "a code leads to somebody else's record: restore a copy of the store",
+                       ", code_hash");
       subject.enrolments = int(query.integer(4));
       found.push_back(std::move(subject));
     }
@@ -169,7 +168,7 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
     RELIEVO_TRY(subject_must_exist(id));
     bool remembered = true;
     if (mode_ == OpenMode::ReadWrite) {
-      RELIEVO_TRY(remove_old_copies(database_->file()));
+      RELIEVO_TRY(remove_copies(database_->file()));
       RELIEVO_TRY_ASSIGN(remembered, remember_erased(*database_, *keys_, id));
     }
     const auto destroyed =
@@ -216,18 +215,17 @@ Result<PersonRecord> SqliteStore::person(SubjectId id) {
 
 Result<void> SqliteStore::must_be_new(std::int64_t receipt) {
   if (receipt < kLeastReceipt || receipt > kMostReceipt)
-    return Error{Errc::InvalidInput, "this person's code is none that a store gives"};
+    return invalid("this person's code is none that a store gives");
   RELIEVO_TRY_ASSIGN(
       const std::int64_t theirs,
       database_->integer("SELECT id FROM subject WHERE code_hash = ?", keys_->code_hash(receipt)));
   // First: the list of the erased also has whom an erasure that failed left here.
   if (theirs != 0)
-    return Error{Errc::InvalidInput, "somebody with this person's code is in the store: nothing was changed"}
+    return invalid("somebody with this person's code is in the store: nothing was changed")
         .at("subject " + std::to_string(theirs));
   RELIEVO_TRY_ASSIGN(const bool erased, was_erased(*database_, *keys_, receipt));
   if (!erased) return {};
-  return Error{Errc::InvalidInput,
-               "this person was erased from this store after the copy was made: it brings nobody back"};
+  return invalid("this person was erased from this store after the copy was made: it brings nobody back");
 }
 
 Result<SubjectId> SqliteStore::add_person(const PersonRecord& person) {

@@ -68,7 +68,7 @@ Result<void> make_store_directory(const fs::path& named) {
     return failed(dir, errno);
   }
   if (!fs::is_directory(dir, ignored))
-    return Error{Errc::InvalidInput, "the store needs a directory, this is none"}.at(dir.string());
+    return invalid("the store needs a directory, this is none").at(dir.string());
   // What is synced in it later is lost with its name.
   for (fs::path made = dir; made != there; made = made.parent_path())
     RELIEVO_TRY(sync_directory(made.parent_path()));

@@ -15,7 +15,7 @@
 #include <cstdio>
 #include <map>
 
-#include "firmware/measure/truth_view.h"
+#include "firmware/measure/measurement.h"
 #include "pipeline/model/vector3.h"
 #include "tests/bench/frame_trial.h"
 #include "tests/bench/recognition/enrolment.h"

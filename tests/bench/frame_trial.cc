@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "firmware/measure/measurement.h"
-#include "firmware/reconstruct/picture_pair.h"
+#include "firmware/reconstruct/reconstruction.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::bench {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "firmware/measure/triangle_grid.h"
+#include "firmware/measure/measurement.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/model/face_mesh.h"
 #include "tests/support/stage_fixture.h"

@@ -23,7 +23,6 @@
 #include "pipeline/texture/texture_sharpness.h"
 #include "pipeline/texture/texturers.h"
 #include "storage/export/format/export_mesh.h"
-#include "storage/export/format/mesh_writers.h"
 #include "storage/export/model_files.h"
 #include "tests/support/stage_fixture.h"
 #include "tests/support/texture_seams.h"

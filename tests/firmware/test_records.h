@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "firmware/work/visit_records.h"
+#include "firmware/work/jobs.h"
 
 namespace relievo::firmware {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures in files and in cameras' buffers.
-#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/comparison.h"
 #include "hal/base/assert.h"
 #include "hal/picture_file.h"
 #include "tests/fuzz/fuzz_targets.h"

@@ -9,7 +9,7 @@
 #include "storage/cipher/age.h"
 #include "storage/cipher/recovery.h"
 #include "storage/model_blob.h"
-#include "storage/person_record.h"
+#include "storage/record.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/storage/sample.h"

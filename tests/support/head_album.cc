@@ -186,9 +186,8 @@ void Album::expose(Shot& shot) {
   if (shot.extra == Extra::HandBefore || shot.extra == Extra::HandOnCheek) {
     const bool mouth = shot.extra == Extra::HandBefore;
     const sim::Vec3 by = mouth ? sim::Vec3{4, 30, -75} : sim::Vec3{34, -18, -42};
-    const sim::ArtefactPose place{
-        mouth ? sim::rotation(0.1, 0.15, 0.3) : sim::rotation(0.1, -0.3, -0.4),
-        sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
+    const sim::BodyPose place{mouth ? sim::rotation(0.1, 0.15, 0.3) : sim::rotation(0.1, -0.3, -0.4),
+                              sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
     scene = std::make_unique<Both>(std::move(scene),
                                    std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
   }
@@ -196,9 +195,8 @@ void Album::expose(Shot& shot) {
   if (shot.extra == Extra::BagBeside || shot.extra == Extra::WallBehind) {
     const bool bag = shot.extra == Extra::BagBeside;
     const sim::Vec3 by = bag ? sim::Vec3{side * 158, -25, 35} : sim::Vec3{0, -20, 480};
-    const sim::ArtefactPose place{
-        bag ? sim::rotation(0.1, side * 0.2, 0.15) : sim::rotation(0, 0, 0),
-        sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
+    const sim::BodyPose place{bag ? sim::rotation(0.1, side * 0.2, 0.15) : sim::rotation(0, 0, 0),
+                              sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
     scene = std::make_unique<Both>(
         std::move(scene), std::make_unique<sim::PlateScene>(
                               bag ? sim::FlatPlate{125, 170, 9} : sim::FlatPlate{1200, 900, 11}, place));

@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 
-#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/screens/service/technician/technician_frame.h"
 #include "ui/view/staff_views.h"

@@ -3,7 +3,6 @@
 //
 // What needs a hand: each rule fires for what it is about and for nothing else, and leads to a page that who
 // reads it may open.
-#include "ui/screens/service/status_table.h"
 
 #include <gtest/gtest.h>
 

@@ -48,7 +48,7 @@ TouchPoint TouchMap::operator()(TouchPoint at) const {
 }
 
 Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
-  if (crosses.size() < 3) return Error{Errc::InvalidInput, "three crosses are needed"};
+  if (crosses.size() < 3) return invalid("three crosses are needed");
   Normal normal{};
   Row right_x{}, right_y{};
   for (const TouchedCross& one : crosses) {
@@ -61,11 +61,11 @@ Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
   }
   const double determinant = det(normal);
   if (determinant < 1e-4)
-    return Error{Errc::InvalidInput, "the touches lie too close together, or on one line: touch the crosses"};
+    return invalid("the touches lie too close together, or on one line: touch the crosses");
   const Row x = solve(normal, right_x, determinant), y = solve(normal, right_y, determinant);
   TouchFit fit;
   fit.map.m = {x[0], x[1], x[2], y[0], y[1], y[2]};
-  if (!is_plausible(fit.map.m)) return Error{Errc::InvalidInput, "no panel is mounted so: touch the crosses"};
+  if (!is_plausible(fit.map.m)) return invalid("no panel is mounted so: touch the crosses");
   double squares = 0;
   for (const TouchedCross& one : crosses) {
     const TouchPoint at = fit.map(one.touched);
@@ -76,7 +76,7 @@ Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
   const double sign = fit.mirrored ? -1 : 1;
   fit.turned_deg = std::atan2(y[0] - sign * x[1], x[0] + sign * y[1]) * 180 / std::numbers::pi;
   if (fit.off > kMostTouchOff)
-    return Error{Errc::InvalidInput, "the touches do not fit together: one of them was beside its cross"};
+    return invalid("the touches do not fit together: one of them was beside its cross");
   return fit;
 }
 
@@ -97,8 +97,7 @@ Result<TouchMap> parse_touch_map(std::string_view text) {
   in >> version;
   for (double& part : map.m) in >> part;
   if (!in || version != "1" || (in >> rest) || !is_plausible(map.m))
-    return Error{Errc::InvalidInput,
-                 "the touch screen's correction cannot be read: the panel is taken as it is"};
+    return invalid("the touch screen's correction cannot be read: the panel is taken as it is");
   return map;
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -61,12 +62,10 @@ enum class TouchVerdict : std::uint8_t { None, Kept, Plain, NobodyTouched, Misfi
 struct TouchView {
   TouchStep step = TouchStep::Rest;
   TouchVerdict verdict = TouchVerdict::None;
-  std::size_t cross = 0;   // which of kTouchCrosses is to be touched
-  int seconds_left = 0;    // until everything is as it was
-  bool corrected = false;  // a correction is in force
-  bool measured = false;   // the figures below are of crosses that were touched just now
-  double turned_deg = 0, off = 0;
-  bool mirrored = false;
+  std::size_t cross = 0;             // which of kTouchCrosses is to be touched
+  int seconds_left = 0;              // until everything is as it was
+  bool corrected = false;            // a correction is in force
+  std::optional<TouchFit> fit = {};  // of crosses that were touched just now
 };
 
 }  // namespace relievo::ui

@@ -3,6 +3,7 @@
 #include <GLES3/gl3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -13,6 +14,101 @@
 
 namespace relievo::ui {
 namespace {
+
+constexpr const char* kFaceVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal_in;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in float within_in;
+uniform mat4 clip_from_head;
+uniform mat3 turned;
+out vec3 normal; out vec2 texel; out vec3 seen_from; out float within;
+uniform vec3 eye;
+uniform float edges;
+void main() {
+  normal = turned * normal_in;
+  seen_from = eye - turned * position;
+  texel = uv;
+  within = within_in;
+  gl_Position = clip_from_head * vec4(position, 1.0);
+  gl_Position.z -= edges * 0.0015 * gl_Position.w;  // sides are chords, which lie a little behind what is round
+}
+)";
+
+constexpr const char* kFace = R"(
+in vec3 normal; in vec2 texel; in vec3 seen_from; in float within;
+uniform sampler2D picture;
+uniform vec3 light;
+uniform float textured, lit, filled, edges, fading, opacity;
+void main() {
+  vec3 n = normalize(normal);
+  vec3 v = normalize(seen_from);
+  if (dot(n, v) < 0.0) n = -n;
+  float key = max(dot(n, light), 0.0);
+  float fill_light = max(dot(n, normalize(vec3(-light.x, 0.2, 0.6))), 0.0);
+  float rim = pow(1.0 - max(dot(n, v), 0.0), 3.0);
+  // The photograph holds its own light already: ours only models it a little.
+  vec3 skin = texture(picture, texel).rgb * (0.72 + 0.52 * key + 0.20 * fill_light);
+  vec3 clay = vec3(0.80, 0.82, 0.86) * (0.16 + 0.74 * key + 0.18 * fill_light) + vec3(0.05, 0.07, 0.10) * rim;
+  if (lit < 0.5) {
+    skin = texture(picture, texel).rgb;
+    clay = vec3(0.62, 0.65, 0.70);
+  }
+  vec3 surface = mix(clay, skin, textured);
+  // Sides are dark on the surface; without it they have the skin's colour, or a light one in clay's place.
+  if (edges > 0.5) surface = filled > 0.5 ? vec3(0.05, 0.13, 0.22) : mix(clay * vec3(0.56, 0.98, 1.16), skin, textured);
+  float there = mix(1.0, smoothstep(0.0, 1.0, within), fading);
+  if (edges > 0.5 && filled > 0.5) there *= 0.7;
+  there *= opacity;
+  colour = vec4(surface * there, there);
+}
+)";
+
+constexpr const char* kBackdropVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 rgba;
+uniform mat4 clip_from_head;
+out vec4 tint;
+void main() {
+  tint = rgba;
+  gl_Position = clip_from_head * vec4(position, 1.0);
+}
+)";
+
+constexpr const char* kBackdrop = R"(
+precision mediump float;
+in vec4 tint;
+uniform float opacity;
+void main() {
+  float a = tint.a * opacity;
+  colour = vec4(tint.rgb * a, a);
+}
+)";
+
+// A little before the surface they lie on.
+constexpr const char* kPointVertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 clip_from_head;
+uniform float size;
+out float depth;
+void main() {
+  gl_Position = clip_from_head * vec4(position, 1.0);
+  gl_Position.z -= 0.004 * gl_Position.w;
+  gl_PointSize = size;
+  depth = clamp((position.z + 75.0) / 125.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kPoint = R"(
+precision mediump float;
+in float depth;
+uniform float opacity;
+void main() {
+  vec3 far = vec3(0.20, 0.33, 0.75), middle = vec3(0.25, 0.78, 0.67), near = vec3(1.0, 0.69, 0.25);
+  vec3 tint = depth < 0.5 ? mix(far, middle, depth * 2.0) : mix(middle, near, depth * 2.0 - 1.0);
+  colour = vec4(tint * opacity, opacity);
+}
+)";
 
 constexpr float kBackdropFromDeg = 20, kBackdropToDeg = 50;  // it fades as the face turns away
 constexpr int kMostSidePx = 2048;
@@ -60,9 +156,9 @@ class GlesFaceView final : public FaceView {
   }
 
   Result<void> prepare() {
-    RELIEVO_TRY_ASSIGN(program_, compile_program(shader::kFaceVertex, shader::kFace));
-    RELIEVO_TRY_ASSIGN(point_program_, compile_program(shader::kPointVertex, shader::kPoint));
-    RELIEVO_TRY_ASSIGN(backdrop_program_, compile_program(shader::kBackdropVertex, shader::kBackdrop));
+    RELIEVO_TRY_ASSIGN(program_, compile_program(kFaceVertex, kFace));
+    RELIEVO_TRY_ASSIGN(point_program_, compile_program(kPointVertex, kPoint));
+    RELIEVO_TRY_ASSIGN(backdrop_program_, compile_program(kBackdropVertex, kBackdrop));
     glGenVertexArrays(1, &array_);
     return {};
   }
@@ -94,17 +190,13 @@ class GlesFaceView final : public FaceView {
   }
 
   void forget() override {
-    glDeleteBuffers(1, &buffer_);
-    glDeleteBuffers(1, &index_buffer_);
-    glDeleteBuffers(1, &point_buffer_);
-    glDeleteBuffers(1, &backdrop_buffer_);
-    glDeleteBuffers(1, &edge_buffer_);
+    glDeleteBuffers(kBuffers, buffers_.data());
+    buffers_ = {};
     glDeleteTextures(1, &texture_);
     glDeleteTextures(1, &colour_);
     glDeleteRenderbuffers(1, &depth_);
     glDeleteFramebuffers(1, &frame_);
-    buffer_ = index_buffer_ = point_buffer_ = backdrop_buffer_ = edge_buffer_ = texture_ = colour_ = depth_ =
-        frame_ = 0;
+    texture_ = colour_ = depth_ = frame_ = 0;
     version_ = points_version_ = edges_version_ = 0;
     index_count_ = point_count_ = backdrop_count_ = edge_count_ = width_ = height_ = 0;
   }
@@ -117,12 +209,12 @@ class GlesFaceView final : public FaceView {
     const pipeline::SeamSplit split = split_of(subject);
     index_count_ = int(3 * split.triangles.size());
     stand_ = stand_of(model);
-    fill(GL_ARRAY_BUFFER, buffer_, corners_of(model, split));
+    fill(GL_ARRAY_BUFFER, buffers_[Corners], corners_of(model, split));
     glBindVertexArray(array_);  // which keeps the buffer of indices
-    fill(GL_ELEMENT_ARRAY_BUFFER, index_buffer_, split.triangles);
+    fill(GL_ELEMENT_ARRAY_BUFFER, buffers_[Indices], split.triangles);
     const std::vector<Tinted> behind = tinted_of(model);
     backdrop_count_ = int(behind.size());
-    fill(GL_ARRAY_BUFFER, backdrop_buffer_, behind);
+    fill(GL_ARRAY_BUFFER, buffers_[Behind], behind);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     textured_ = atlas.width_px > 0 && atlas.height_px > 0 && !atlas.rgb.empty();
@@ -137,7 +229,7 @@ class GlesFaceView final : public FaceView {
     apart_count_ = int(set_apart(dots));
     point_count_ = int(dots.size());
     points_version_ = subject.version;
-    fill(GL_ARRAY_BUFFER, point_buffer_, dots);
+    fill(GL_ARRAY_BUFFER, buffers_[Points], dots);
   }
 
   // Indices of corners, so that sides have normals and texels. A level holds for a range of zooms.
@@ -153,7 +245,7 @@ class GlesFaceView final : public FaceView {
     for (const auto& [a, b] : edges_of(mesh, level_mm)) indices.insert(indices.end(), {corner[a], corner[b]});
     edge_count_ = int(indices.size());
     glBindVertexArray(array_);
-    fill(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_, indices);
+    fill(GL_ELEMENT_ARRAY_BUFFER, buffers_[Sides], indices);
   }
 
   void make_frame(int w, int h) {
@@ -210,7 +302,7 @@ class GlesFaceView final : public FaceView {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glBindVertexArray(array_);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers_[Corners]);
     point_at({3, 3, 2, 1});  // a Corner
     if (look_.fill) draw_surface();
     if (look_.edges) draw_edges();
@@ -223,7 +315,7 @@ class GlesFaceView final : public FaceView {
 
   // What is seen through must not be its own far side: the nearest of it is looked for first.
   void draw_surface() const {
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[Indices]);
     const auto draw = [this] { glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr); };
     if (birth_.surface < 1) {
       glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -248,7 +340,7 @@ class GlesFaceView final : public FaceView {
                        t.clip_from_model());
     glUniform1f(glGetUniformLocation(backdrop_program_, "opacity"), opacity);
     glBindVertexArray(array_);
-    glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers_[Behind]);
     point_at({3, kFourBytes});  // a Tinted
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, backdrop_count_);
@@ -257,7 +349,7 @@ class GlesFaceView final : public FaceView {
 
   void draw_edges() const {
     glUniform1f(glGetUniformLocation(program_, "edges"), 1);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[Sides]);
     glLineWidth(kEdgeWidthPx * float(times_));
     glDrawElements(GL_LINES, edge_count_, GL_UNSIGNED_INT, nullptr);
   }
@@ -269,14 +361,15 @@ class GlesFaceView final : public FaceView {
                        t.clip_from_model());
     glUniform1f(glGetUniformLocation(point_program_, "size"),
                 times * std::max(2.0F, float(height_) / 420 * look_.zoom));
-    glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers_[Points]);
     point_at({3});
     glDrawArrays(GL_POINTS, 0, count);
   }
 
-  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, edge_buffer_ = 0,
-         array_ = 0, buffer_ = 0, index_buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0,
-         depth_ = 0;
+  enum Buffer : GLsizei { Corners, Indices, Points, Behind, Sides, kBuffers };
+  std::array<GLuint, kBuffers> buffers_{};
+  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, array_ = 0, texture_ = 0, frame_ = 0,
+         colour_ = 0, depth_ = 0;
   std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
   Birth birth_ = birth_of(1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One GLES program, and the shaders' source. Names of GL objects are plain numbers here, so that no
+// One GLES program. Names of GL objects are plain numbers here, so that no
 // GL header is needed. Thread: main, with a current context.
 #pragma once
 
@@ -23,20 +23,5 @@ void point_at(std::initializer_list<int> attributes, std::size_t first = 0, bool
 
 // The texture that is bound: linear, its edge repeated.
 void smooth_texture();
-
-namespace shader {
-extern const char* const kQuadVertex;  // every flat mark: one quad an instance
-extern const char* const kFlat;
-extern const char* const kShape;
-extern const char* const kGlyph;
-extern const char* const kImage;
-extern const char* const kRing;
-extern const char* const kFaceVertex;
-extern const char* const kFace;
-extern const char* const kBackdropVertex;
-extern const char* const kBackdrop;
-extern const char* const kPointVertex;  // its points
-extern const char* const kPoint;
-}  // namespace shader
 
 }  // namespace relievo::ui

@@ -13,6 +13,106 @@
 namespace relievo::ui {
 namespace {
 
+constexpr const char* kQuadVertex = R"(
+layout(location = 0) in vec4 rect;
+layout(location = 1) in vec4 uv;
+layout(location = 2) in vec4 fill_in;
+layout(location = 3) in vec4 fill_end_in;
+layout(location = 4) in vec4 border_in;
+layout(location = 5) in vec4 numbers_in;  // radius, border, blur, share
+uniform vec2 screen;
+uniform vec2 texels;
+out vec2 at;         // pixels from the middle
+out vec2 place;      // 0 to 1
+out vec2 texel;
+flat out vec2 half_size;
+flat out vec4 fill; flat out vec4 fill_end; flat out vec4 border; flat out vec4 numbers;
+void main() {
+  vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
+  float margin = numbers_in.z * 2.0 + 1.0;          // room for the shadow and the soft edge
+  vec2 pixel = rect.xy - margin + corner * (rect.zw + 2.0 * margin);
+  half_size = rect.zw * 0.5;
+  at = pixel - rect.xy - half_size;
+  place = (pixel - rect.xy) / rect.zw;
+  texel = (uv.xy + place * uv.zw) / texels;
+  fill = fill_in; fill_end = fill_end_in; border = border_in; numbers = numbers_in;
+  gl_Position = vec4(pixel.x / screen.x * 2.0 - 1.0, 1.0 - pixel.y / screen.y * 2.0, 0.0, 1.0);
+}
+)";
+
+// A gradient over a large dark ground shows steps: a little noise, the same in every frame, hides them.
+constexpr const char* kFlat = R"(
+in vec2 place; in vec2 at; flat in vec2 half_size; flat in vec4 fill; flat in vec4 fill_end;
+void main() {
+  if (abs(at.x) > half_size.x || abs(at.y) > half_size.y) discard;
+  float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715)))) - 0.5;
+  vec4 c = mix(fill, fill_end, place.y);
+  c.rgb += noise / 255.0;
+  colour = vec4(c.rgb * c.a, c.a);
+}
+)";
+
+constexpr const char* kShape = R"(
+in vec2 place; in vec2 at; flat in vec2 half_size;
+flat in vec4 fill; flat in vec4 fill_end; flat in vec4 border; flat in vec4 numbers;
+void main() {
+  vec2 q = abs(at) - half_size + numbers.x;
+  float d = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - numbers.x;
+  vec4 c = mix(fill, fill_end, clamp(place.y, 0.0, 1.0));
+  if (numbers.z > 0.0) {
+    float s = clamp(0.5 - d / (2.0 * numbers.z), 0.0, 1.0);
+    c.a *= s * s * (3.0 - 2.0 * s);
+    colour = vec4(c.rgb * c.a, c.a);
+    return;
+  }
+  vec4 inside = vec4(c.rgb * c.a, c.a);
+  vec4 line = vec4(border.rgb * border.a, border.a);
+  float in_line = numbers.y > 0.0 ? clamp(0.5 + d + numbers.y, 0.0, 1.0) : 0.0;
+  vec4 covered = inside * (1.0 - in_line * border.a) + line * in_line;
+  colour = covered * clamp(0.5 - d, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kGlyph = R"(
+precision mediump float;
+in vec2 place; in vec2 texel; flat in vec4 fill;
+uniform sampler2D picture;
+void main() {
+  if (place.x < 0.0 || place.y < 0.0 || place.x > 1.0 || place.y > 1.0) discard;
+  float a = texture(picture, texel).r * fill.a;
+  colour = vec4(fill.rgb * a, a);
+}
+)";
+
+constexpr const char* kImage = R"(
+in vec2 at; in vec2 texel; flat in vec2 half_size; flat in vec4 numbers; flat in vec4 fill;
+uniform sampler2D picture;
+void main() {
+  vec2 q = abs(at) - half_size + numbers.x;
+  float d = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - numbers.x;
+  vec4 c = texture(picture, texel);
+  float a = clamp(0.5 - d, 0.0, 1.0) * fill.a;
+  colour = c * a;
+}
+)";
+
+// numbers: half of the line, the line, nothing, share. The distance to an ellipse, first order (Taubin 1994).
+constexpr const char* kRing = R"(
+in vec2 at; in vec2 texel; flat in vec4 fill; flat in vec4 border; flat in vec4 numbers;
+void main() {
+  vec2 r = texel - numbers.x;  // its half axes: the same in every corner
+  vec2 p = at / r;
+  float f = length(p);
+  float d = f < 1e-4 ? -min(r.x, r.y) : (f - 1.0) * f / length(at / (r * r));
+  float turn = fract(atan(at.x / r.x, -at.y / r.y) / 6.2831853 + 1.0);
+  float line = clamp(0.5 + numbers.y * 0.5 - abs(d), 0.0, 1.0) * (turn <= numbers.w ? 1.0 : 0.22);
+  float outside = clamp(0.5 + d, 0.0, 1.0) * fill.a;
+  vec4 under = vec4(fill.rgb, 1.0) * outside;
+  float a = line * border.a;
+  colour = under * (1.0 - a) + vec4(border.rgb, 1.0) * a;
+}
+)";
+
 constexpr std::size_t kPrograms = 5;  // in the order of Mark; a Face is an Image
 constexpr int kFinePx = 1024;  // a wider picture may be shown so small that single pixels would sparkle
 
@@ -40,10 +140,9 @@ class GlesRenderer final : public Renderer {
   }
 
   Result<void> prepare() {
-    const char* const fragments[kPrograms] = {shader::kFlat, shader::kShape, shader::kGlyph, shader::kImage,
-                                              shader::kRing};
+    const char* const fragments[kPrograms] = {kFlat, kShape, kGlyph, kImage, kRing};
     for (std::size_t i = 0; i < kPrograms; ++i) {
-      RELIEVO_TRY_ASSIGN(programs_[i].name, compile_program(shader::kQuadVertex, fragments[i]));
+      RELIEVO_TRY_ASSIGN(programs_[i].name, compile_program(kQuadVertex, fragments[i]));
       programs_[i].screen = glGetUniformLocation(programs_[i].name, "screen");
       programs_[i].texels = glGetUniformLocation(programs_[i].name, "texels");
     }

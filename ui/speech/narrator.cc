@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
-#include <span>
 #include <utility>
 
 #include "hal/base/utf8.h"
@@ -116,7 +115,8 @@ void Narrator::read_again(std::string_view introduction) {
 void Narrator::forget() {
   said_.clear();
   scratch_.clear();
-  page_ = focus_ = focused_ = typed_ = typed_bytes_ = told_count_ = 0;
+  page_ = focus_ = focused_ = typed_ = typed_bytes_ = 0;
+  told_.clear();
   read_again();
 }
 
@@ -139,7 +139,7 @@ void Narrator::read_page(const Tree& tree, const Moment& moment, const Listener&
   again_ = false;
   said_.say(std::exchange(introduction_, {}));
   say_page(tree, to, said_);
-  told_count_ = 0;
+  told_.clear();
   follow_statuses(tree, moment, to, true);
   // Whatever has the focus now, or stands in the field, was there when the page was read.
   const Node* field = field_of(tree);
@@ -176,44 +176,36 @@ bool Narrator::follow_typing(const Tree& tree, const Listener& to) {
   return true;
 }
 
-Narrator::Told* Narrator::told_of(std::size_t id) {
-  for (std::size_t i = 0; i < told_count_; ++i) {
-    if (told_[i].id == id) return &told_[i];
-  }
-  if (told_count_ == told_.size()) return nullptr;
-  told_[told_count_] = {.id = id};
-  return &told_[told_count_++];
+Narrator::Told& Narrator::told_of(std::size_t id) {
+  const auto known = std::ranges::find(told_, id, &Told::id);
+  return known != told_.end() ? *known : told_.emplace_back(Told{.id = id});
 }
 
 void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Listener& to, bool said_all) {
-  const std::span<Told> all(told_);
-  for (Told& told : all.first(told_count_)) told.there = false;
+  for (Told& told : told_) told.there = false;
   for (const Node& node : tree.nodes()) {
     if ((node.role != Role::Status && node.role != Role::Alert) || node.unspoken || node.id.empty() ||
         !tree.is_on_top(node))
       continue;
-    Told* told = told_of(print_of(node.id));
-    if (told == nullptr) continue;
-    told->there = true;
-    told->alert = node.role == Role::Alert;
+    Told& told = told_of(print_of(node.id));
+    told.there = true;
+    told.alert = node.role == Role::Alert;
     scratch_.clear();
     say_node(tree, node, to, scratch_);
     const std::size_t words = print_of(scratch_.text());
-    if (std::exchange(told->seen, words) != words) told->since = moment.now;
-    const auto stands = moment.now - told->since;
+    if (std::exchange(told.seen, words) != words) told.since = moment.now;
+    const auto stands = moment.now - told.since;
     const bool obeyed = !node.waits || moment.now - heard_ >= kReacts || stands >= kCutsShort;
     const bool due = node.role == Role::Alert ? stands >= kSettled && obeyed : !moment.busy;
-    const bool again = node.insists && !moment.busy && moment.now - told->last >= kAgain;
-    if ((words == told->said && !again) || (!due && !said_all)) continue;
-    told->said = words;
-    told->last = moment.now;
+    const bool again = node.insists && !moment.busy && moment.now - told.last >= kAgain;
+    if ((words == told.said && !again) || (!due && !said_all)) continue;
+    told.said = words;
+    told.last = moment.now;
     if (!said_all) said_.say(scratch_.text());
     told_to_wait_ = node.waits && !said_all;
   }
   // An alert that comes again is new: the second wrong code is told as the first was.
-  const auto end = told_.begin() + std::ptrdiff_t(told_count_);
-  told_count_ -= std::size_t(
-      end - std::remove_if(told_.begin(), end, [](const Told& t) { return t.alert && !t.there; }));
+  std::erase_if(told_, [](const Told& told) { return told.alert && !told.there; });
   scratch_.clear();
 }
 

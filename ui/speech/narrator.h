@@ -16,11 +16,11 @@
 // texts, no texts. Thread: main. Errors: none.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "hal/base/wiped_text.h"
 #include "hal/clock.h"
@@ -104,17 +104,15 @@ class Narrator {
     hal::Instant since{}, last{};            // seen; said
     bool there = false, alert = false;       // as last looked at
   };
-  static constexpr std::size_t kStatuses = 32;
   void read_page(const Tree& tree, const Moment& moment, const Listener& to);
   bool follow_focus(const Tree& tree, std::string_view focus, const Listener& to, bool was_there);
   bool follow_typing(const Tree& tree, const Listener& to);
   void follow_statuses(const Tree& tree, const Moment& moment, const Listener& to, bool said_all);
-  Told* told_of(std::size_t id);
+  Told& told_of(std::size_t id);
 
   Utterance said_, scratch_;
   std::size_t page_ = 0, focus_ = 0, focused_ = 0, typed_ = 0, typed_bytes_ = 0;
-  std::array<Told, kStatuses> told_{};
-  std::size_t told_count_ = 0;
+  std::vector<Told> told_;
   hal::Instant heard_{};
   bool told_to_wait_ = false;  // what was said last was such an alert
   bool again_ = true;

@@ -78,11 +78,6 @@ Node& Tree::open(const Node& node) {
   return added;
 }
 
-void Tree::layout(const Rect& screen, TextEngine& text, const Interaction& hands) {
-  RELIEVO_ASSERT(open_.empty() && !nodes_.empty());
-  Layout(nodes_, text, hands, right_to_left_).place(0, screen, screen);
-}
-
 bool Tree::under_modal(std::size_t index) const {
   if (modal_ < 0) return false;
   for (auto at = std::int32_t(index); at >= 0; at = nodes_[std::size_t(at)].parent) {

@@ -63,10 +63,9 @@ void Service::show(StaffPage which, int in_mode) {
 }
 
 void Service::go(StaffPage to) {
-  typed_.wipe();
+  close();
+  open = true;
   page = to;
-  mode = 0;
-  ruler = {};
   request(PageOpened{});
 }
 

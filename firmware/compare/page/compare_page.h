@@ -53,7 +53,7 @@ struct CubeTable {
 struct Dissertation {
   RigTable rig;
   CubeTable cube;
-  Comparison rules;  // figures 6 to 12: suites.h's rule sets on one pair, matches only
+  Comparison rules;  // figures 6 to 12: the rule sets of set_run.h on one pair, matches only
   Comparison face;   // figure 17: its face sets on one calibrated pair
 };
 

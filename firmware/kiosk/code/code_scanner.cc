@@ -47,13 +47,10 @@ std::optional<std::string> code_text(std::string_view raw) {
 
 CodeScanner::CodeScanner(Appliance& appliance, hal::Device& device)
     : appliance_(appliance), device_(device), look_([this](JobControl& control) {
-        struct AtTheEnd {  // also of what a library throws
-          CodeScanner& scanner;
-          ~AtTheEnd() {
-            scanner.appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
-            scanner.ended_.store(true, std::memory_order_release);
-          }
-        } at_the_end{*this};
+        const Finally at_the_end{[this] {
+          appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
+          ended_.store(true, std::memory_order_release);
+        }};
         return look(control);
       }) {}
 

@@ -6,12 +6,12 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <locale>
 #include <sstream>
 
 #include "hal/base/utf8.h"
+#include "hal/base/words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -25,13 +25,6 @@ double thread_seconds() {
   timespec at{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &at);
   return double(at.tv_sec) + 1e-9 * double(at.tv_nsec);
-}
-
-template <typename... Numbers>
-std::string line(const char* words, Numbers... numbers) {
-  char text[200];
-  std::snprintf(text, sizeof text, words, numbers...);
-  return text;
 }
 
 using Kind = ScriptAction::Kind;
@@ -54,7 +47,7 @@ constexpr Verb kVerbs[] = {{"wait", Kind::Wait, false},
                            {"plug", Kind::Plug, true},
                            {"unplug", Kind::Unplug, false}};
 
-Error wrong(const std::string& where, Literal what) { return Error{Errc::InvalidInput, what}.at(where); }
+Error wrong(const std::string& where, Literal what) { return invalid(what).at(where); }
 
 bool length_of(std::istringstream& words, double& seconds) {
   return (words >> seconds) && seconds >= 0 && seconds <= kLongestS;
@@ -209,25 +202,26 @@ std::optional<double> VisitFigures::rate(const PageCost& page) {
 
 std::vector<std::string> VisitFigures::lines() const {
   std::vector<std::string> said;
-  if (touches_ > 0) said.push_back(line("touches from yes to thanks, without text   %6d    bar 6", touches_));
+  if (touches_ > 0)
+    said.push_back(printed("touches from yes to thanks, without text   %6d    bar 6", touches_));
   if (still_to_face_s_) {
     const double shot = still_to_shot_s_.value_or(0);
-    said.push_back(line(
+    said.push_back(printed(
         "standing still to the face on the screen   %6.2f s  bar 4 (%.2f s to the shot, %.2f s from there)",
         *still_to_face_s_, shot, *still_to_face_s_ - shot));
   }
   if (const auto live = rate(pages_[std::size_t(ui::Step::Position)]))
-    said.push_back(line("frames a second on the live page           %6.1f    bar 20", *live));
+    said.push_back(printed("frames a second on the live page           %6.1f    bar 20", *live));
   said.push_back(
       "page       frames  a second  changed  ms of processor a frame: ours  most  drawing with the GL driver  heap blocks taken");
   for (std::size_t i = 0; i < kPages; ++i) {
     const PageCost& p = pages_[i];
     if (p.frames == 0) continue;
     const double n = double(p.frames);
-    std::string row = line("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kSteps[i].name.data(),
-                           p.frames, rate(p).value_or(0), p.drawn, 1e3 * p.turn_s / n, 1e3 * p.most_turn_s,
-                           1e3 * p.draw_s / double(std::max(1L, p.drawn)));
-    row += allocations_ ? line("%ld in %ld frames", p.allocations, p.allocating_frames)
+    std::string row = printed("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kSteps[i].name.data(),
+                              p.frames, rate(p).value_or(0), p.drawn, 1e3 * p.turn_s / n, 1e3 * p.most_turn_s,
+                              1e3 * p.draw_s / double(std::max(1L, p.drawn)));
+    row += allocations_ ? printed("%ld in %ld frames", p.allocations, p.allocating_frames)
                         : std::string("not counted");
     said.push_back(std::move(row));
   }
@@ -349,8 +343,7 @@ Result<bool> ScriptPlayer::type(const ScriptAction& action, const Kiosk& kiosk, 
     const ui::Tree& tree = kiosk.ui().tree();
     const bool there = tree.find(own) != nullptr || tree.find("keyboard") == nullptr;
     if (!there && turned_ == kKeysToTry.size())
-      return Error{Errc::InvalidInput, "no key of this keyboard has this letter"}.at(action.where + ": " +
-                                                                                     letter);
+      return invalid("no key of this keyboard has this letter").at(action.where + ": " + letter);
     key_ = there ? own : kKeysToTry[turned_++];
   }
   RELIEVO_TRY_ASSIGN(const bool tapped, touch({Kind::Tap, key_, 0, 0, 0, action.where}, kiosk, now));

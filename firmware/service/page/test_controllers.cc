@@ -23,7 +23,6 @@
 #include "firmware/kiosk/code/qr_code.h"
 #include "firmware/report/report.h"
 #include "firmware/service/access.h"
-#include "firmware/service/page/health_controller.h"
 #include "hal/picture_file.h"
 #include "storage/cipher/recovery.h"
 #include "storage/text.h"
@@ -133,7 +132,7 @@ class RecoveryController final : public PageController {
   ui::RecoveryView view_;
 };
 
-// Behind the staff's first page: the facts its rules judge (ui/screens/service/status_table.h). Disk, sensors
+// Behind the staff's first page: the facts its rules judge (ui/screens/menu_page.cc). Disk, sensors
 // and calibration are looked at on the keeper, anew every two seconds. Thread: main.
 class StatusController final : public PageController {
  public:
@@ -373,24 +372,12 @@ class LogController final : public PageController {
 
 }  // namespace
 
-std::unique_ptr<PageController> recovery_controller(PageServices& services) {
-  return std::make_unique<RecoveryController>(services);
-}
-
-std::unique_ptr<PageController> status_controller(PageServices& services) {
+std::unique_ptr<PageController> device_controller(PageServices& services, ui::StaffPage page) {
+  if (page == ui::StaffPage::Recovery) return std::make_unique<RecoveryController>(services);
+  if (page == ui::StaffPage::SelfTest) return std::make_unique<SelfTestController>(services);
+  if (page == ui::StaffPage::Trigger) return std::make_unique<TriggerController>(services);
+  if (page == ui::StaffPage::Log) return std::make_unique<LogController>(services);
   return std::make_unique<StatusController>(services);
-}
-
-std::unique_ptr<PageController> self_test_controller(PageServices& services) {
-  return std::make_unique<SelfTestController>(services);
-}
-
-std::unique_ptr<PageController> trigger_controller(PageServices& services) {
-  return std::make_unique<TriggerController>(services);
-}
-
-std::unique_ptr<PageController> log_controller(PageServices& services) {
-  return std::make_unique<LogController>(services);
 }
 
 }  // namespace relievo::firmware

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/show/technician_tables.h"
+#include "firmware/technician/show/technician_figures.h"
+#include "hal/base/words.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 #include <limits>
 
 namespace relievo::firmware {
@@ -83,11 +83,7 @@ void TechnicianTables::forget() {
   box_ = {};
 }
 
-void TechnicianTables::cell(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  texts_.emplace_back(text);
-}
+void TechnicianTables::cell(const char* format, double value) { texts_.push_back(printed(format, value)); }
 
 void TechnicianTables::fill(const Source& from) {
   texts_.clear();
@@ -122,21 +118,15 @@ std::string TechnicianTables::label_of(const Source& from, std::size_t row) {
 
 void TechnicianTables::fill_matches(const Source& from, std::size_t row) {
   const pipeline::Match& m = from.products->matches->matches[row];
-  cell("%.2f", m.left_px.x);
-  cell("%.2f", m.left_px.y);
-  cell("%.3f", m.left_px.x - m.disparity_px);
-  cell("%.3f", m.disparity_px);
-  cell("%.3f", m.sigma_px);
-  cell("%.3f", m.cost);
+  for (const float v : {m.left_px.x, m.left_px.y}) cell("%.2f", v);
+  for (const float v : {m.left_px.x - m.disparity_px, m.disparity_px, m.sigma_px, m.cost}) cell("%.3f", v);
   word(from.figures.rule_of(m));
 }
 
 void TechnicianTables::fill_points(const pipeline::PointCloud& cloud, std::size_t row) {
   const pipeline::CloudPoint& p = cloud.points[row];
-  for (const float v : {p.at_mm.x, p.at_mm.y, p.at_mm.z}) cell("%.3f", v);
-  cell("%.3f", p.sigma_mm);
-  cell("%.2f", p.left_px.x);
-  cell("%.2f", p.left_px.y);
+  for (const float v : {p.at_mm.x, p.at_mm.y, p.at_mm.z, p.sigma_mm}) cell("%.3f", v);
+  for (const float v : {p.left_px.x, p.left_px.y}) cell("%.2f", v);
 }
 
 void TechnicianTables::fill_model(const pipeline::FaceModel& model, std::size_t row) {
@@ -190,14 +180,14 @@ void TechnicianTables::fill_calibration(const pipeline::StereoCalibration& c) {
     cell(format, right);
     word(third);
   };
-  char text[kTableRows][96] = {};
+  std::array<std::string, kTableRows> text;
   const auto& r = c.right_from_left.rotation.m;
   const auto& t = c.right_from_left.translation_mm;
   for (std::size_t i = 0; i < 3; ++i)
-    std::snprintf(text[i], sizeof text[i], "R  %+.5f  %+.5f  %+.5f", r[3 * i], r[3 * i + 1], r[3 * i + 2]);
-  std::snprintf(text[3], sizeof text[3], "t  %+.3f  %+.3f  %+.3f mm", t.x, t.y, t.z);
-  std::snprintf(text[4], sizeof text[4], "rms  %.3f px", c.rms_px);
-  std::snprintf(text[5], sizeof text[5], "№  %u", c.revision);
+    text[i] = printed("R  %+.5f  %+.5f  %+.5f", r[3 * i], r[3 * i + 1], r[3 * i + 2]);
+  text[3] = printed("t  %+.3f  %+.3f  %+.3f mm", t.x, t.y, t.z);
+  text[4] = printed("rms  %.3f px", c.rms_px);
+  text[5] = printed("№  %u", c.revision);
   line("fx px", "%.3f", c.left.focal_px.x, c.right.focal_px.x, text[0]);
   line("fy px", "%.3f", c.left.focal_px.y, c.right.focal_px.y, text[1]);
   line("cx px", "%.3f", c.left.centre_px.x, c.right.centre_px.x, text[2]);
@@ -205,12 +195,10 @@ void TechnicianTables::fill_calibration(const pipeline::StereoCalibration& c) {
   const char* const names[] = {"k₁", "k₂", "p₁", "p₂", "k₃"};
   for (std::size_t i = 0; i < 5; ++i)
     line(names[i], "%+.6f", c.left.distortion[i], c.right.distortion[i], text[4 + i]);
-  char left[24], right[24];
-  std::snprintf(left, sizeof left, "%d × %d", c.left.width_px, c.left.height_px);
-  std::snprintf(right, sizeof right, "%d × %d", c.right.width_px, c.right.height_px);
-  for (const std::string_view w :
-       {std::string_view("px"), std::string_view(left), std::string_view(right), std::string_view()})
-    word(w);
+  word("px");
+  for (const auto* camera : {&c.left, &c.right})
+    word(printed("%d × %d", camera->width_px, camera->height_px));
+  word("");
 }
 
 ui::TechnicianRows TechnicianTables::view() const {

@@ -14,6 +14,8 @@
 #include <csignal>
 #include <vector>
 
+#include "hal/base/words.h"
+
 namespace relievo::hal {
 
 Result<LastWill> LastWill::make(const std::function<void()>& will) {
@@ -51,28 +53,20 @@ namespace {
 constexpr const char* kConsumer = "relievo";
 
 Error chip_error(int number) {
-  switch (number) {
-    case ENOENT:
-    case ENXIO:
-    case ENODEV:
-    case ENOTTY: return Error{Errc::NotFound, "there is no such GPIO chip: see gpiodetect", number};
-    case EACCES:
-    case EPERM:
-      return Error{Errc::IoFailed, "this GPIO chip may not be opened: add the user to the group gpio",
-                   number};
-    default: return Error{Errc::IoFailed, "this GPIO chip cannot be opened", number};
-  }
+  constexpr Meaning kRows[] = {
+      {{ENOENT, ENXIO, ENODEV}, Errc::NotFound, "there is no such GPIO chip: see gpiodetect"},
+      {{ENOTTY}, Errc::NotFound, "there is no such GPIO chip: see gpiodetect"},
+      {{EACCES, EPERM}, Errc::IoFailed, "this GPIO chip may not be opened: add the user to the group gpio"},
+      {{}, Errc::IoFailed, "this GPIO chip cannot be opened"}};
+  return meaning_of(number, kRows);
 }
 
 Error line_error(int number) {
-  switch (number) {
-    case EINVAL:
-    case ENOENT:
-      return Error{Errc::NotFound, "this GPIO chip has no such line, or it is no output: see gpioinfo",
-                   number};
-    case EBUSY: return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
-    default: return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
-  }
+  constexpr Meaning kRows[] = {
+      {{EINVAL, ENOENT}, Errc::NotFound, "this GPIO chip has no such line, or it is no output: see gpioinfo"},
+      {{EBUSY}, Errc::IoFailed, "another program drives this GPIO line: close it"},
+      {{}, Errc::IoFailed, "this GPIO line cannot be driven"}};
+  return meaning_of(number, kRows);
 }
 
 #ifdef RELIEVO_GPIOD_2

@@ -63,6 +63,16 @@ inline Mat3 rotation(double about_x, double about_y, double about_z) {
   const Mat3 z{{Vec3{e, -f, 0}, Vec3{f, e, 0}, Vec3{0, 0, 1}}};
   return z * (y * x);
 }
+
+// Where a board or an artefact is.
+struct BodyPose {
+  Mat3 world_from_body;
+  Vec3 origin_mm;  // of the body, in world
+  Vec3 to_world(Vec3 p) const { return world_from_body * p + origin_mm; }
+  Vec3 to_body(Vec3 p) const { return world_from_body.transposed() * (p - origin_mm); }
+  Vec3 normal() const { return world_from_body * Vec3{0, 0, 1}; }
+};
+
 constexpr double radians(double degrees) { return degrees * 0.017453292519943295; }
 
 }  // namespace relievo::hal::sim

@@ -12,16 +12,9 @@
 
 namespace relievo::hal {
 
-void FolderMedia::plug(std::filesystem::path root) {
+void FolderMedia::plug(std::optional<std::filesystem::path> root) {
   const std::lock_guard lock(mutex_);
   root_ = std::move(root);
-  ejected_.reset();
-  taken_up_ = false;
-}
-
-void FolderMedia::unplug() {
-  const std::lock_guard lock(mutex_);
-  root_.reset();
   ejected_.reset();
   taken_up_ = false;
 }

@@ -30,8 +30,8 @@ class FolderMedia final : public RemovableMedia {
   FolderMedia() = default;
   explicit FolderMedia(std::filesystem::path root) { plug(std::move(root)); }
 
-  void plug(std::filesystem::path root);
-  void unplug();
+  void plug(std::optional<std::filesystem::path> root);
+  void unplug() { plug(std::nullopt); }
 
   std::optional<std::filesystem::path> current() override;  // nothing when unplugged or the folder is gone
   Result<void> flush_and_eject() override;                  // MediaMissing, IoFailed

@@ -32,7 +32,7 @@ std::string album_name(const sim::SimulationOptions& o, double yaw_deg) {
 // head that turns is rendered beside the cameras, and kept.
 class RenderedSource final : public PairSource {
  public:
-  RenderedSource(const SimDeviceOptions& options, std::vector<sim::BoardPose> poses)
+  RenderedSource(const SimDeviceOptions& options, std::vector<sim::BodyPose> poses)
       : o_(options.simulation), album_(options.album), pool_(options.threads), poses_(std::move(poses)) {
     // Here, since a frame has a deadline, and a slow machine takes half a minute to make a head.
     if (poses_.empty()) shown_ = &photograph(0);
@@ -137,7 +137,7 @@ class RenderedSource final : public PairSource {
   std::filesystem::path album_;
   std::mutex mutex_;
   ThreadPool pool_;
-  std::vector<sim::BoardPose> poses_;
+  std::vector<sim::BodyPose> poses_;
   sim::LightPicture left_, right_;
   std::size_t pose_ = 0;
   std::shared_ptr<const sim::HeadModel> head_;
@@ -158,7 +158,7 @@ void turn_simulated_head(Device& device, double yaw_deg) {
 Result<std::unique_ptr<Device>> make_sim_device(const SimDeviceOptions& options) {
   const sim::SimulationOptions& o = options.simulation;
   RELIEVO_TRY(o.check());
-  std::vector<sim::BoardPose> poses;
+  std::vector<sim::BodyPose> poses;
   if (o.scene == sim::SceneKind::Board) {
     RELIEVO_TRY_ASSIGN(poses, sim::good_board_poses(sim::make_rig(o.rig), o.board, o.board_poses, o.seed,
                                                     o.pose.distance_mm));

@@ -121,18 +121,18 @@ Vec3 DumbbellScene::centre_mm(int sphere) const {
 }
 
 ArtefactScene::Met ArtefactScene::met_from(Vec3 origin, Vec3 direction) const {
-  return meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction);
+  return meet(pose_.to_body(origin), pose_.world_from_body.transposed() * direction);
 }
 
 RayHit ArtefactScene::look(Vec3 origin, Vec3 direction) const {
-  const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
+  const Vec3 o = pose_.to_body(origin), d = pose_.world_from_body.transposed() * direction;
   const Met met = meet(o, d);
   if (met.distance == kNone) {
     const double dark = 0.03 + 0.006 * value_noise(direction * 6, 99) - 0.015 * direction.y;
     return {{dark, dark * 1.02, dark * 1.05}, kNone, met.body, false};
   }
   const double reflectance = met.printed ? speckle(o + d * met.distance, seed_) : 0.10;
-  const double light = matt_light(origin + direction * met.distance, pose_.world_from_artefact * met.normal);
+  const double light = matt_light(origin + direction * met.distance, pose_.world_from_body * met.normal);
   // Dots are finer than a sample a pixel could show without aliasing.
   return {grey(reflectance * light), met.distance, met.body, met.printed};
 }
@@ -140,7 +140,7 @@ RayHit ArtefactScene::look(Vec3 origin, Vec3 direction) const {
 bool ArtefactScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
   const Met met = met_from(origin, direction);
   if (met.distance == kNone) return false;
-  out = {origin + direction * met.distance, pose_.world_from_artefact * met.normal, met.printed};
+  out = {origin + direction * met.distance, pose_.world_from_body * met.normal, met.printed};
   return true;
 }
 
@@ -170,7 +170,7 @@ PlateScene::Met PlateScene::meet(Vec3 o, Vec3 d) const {
   return {distance, {0, 0, d.z > 0 ? -1.0 : 1.0}, kPlate, true};
 }
 
-ArtefactPose ArtefactPlace::pose() const {
+BodyPose ArtefactPlace::pose() const {
   return {rotation(radians(pitch_deg), radians(yaw_deg), radians(roll_deg)),
           {right_mm, down_mm, distance_mm}};
 }
@@ -202,7 +202,7 @@ Result<PicturePair> photograph_plate(const TargetPhotoOptions& options, const Fl
   RELIEVO_TRY(options.rig.check());
   RELIEVO_TRY(plate.check());
   const SimRig rig = make_rig(options.rig);
-  const ArtefactPose pose = place.pose();
+  const BodyPose pose = place.pose();
   for (const double x : {-0.5, 0.5})
     for (const double y : {-0.5, 0.5})
       if (!seen(rig, pose.to_world({x * plate.width_mm, y * plate.height_mm, 0}), 0)) return kCut;

@@ -24,13 +24,6 @@ namespace relievo::hal::sim {
 // the dots lie on the surface without seams.
 double speckle(Vec3 p_mm, std::uint32_t seed);  // reflectance, 0.06 .. 0.8
 
-struct ArtefactPose {
-  Mat3 world_from_artefact;
-  Vec3 origin_mm;  // of the artefact, in world
-  Vec3 to_world(Vec3 p) const { return world_from_artefact * p + origin_mm; }
-  Vec3 to_artefact(Vec3 p) const { return world_from_artefact.transposed() * (p - origin_mm); }
-};
-
 struct Dumbbell {
   double diameter_mm = 60;  // of both spheres
   double spacing_mm = 120;  // between their centres
@@ -47,7 +40,7 @@ struct FlatPlate {
 
 class ArtefactScene : public Scene {
  public:
-  ArtefactScene(const ArtefactPose& pose, std::uint32_t seed) : pose_(pose), seed_(seed) {}
+  ArtefactScene(const BodyPose& pose, std::uint32_t seed) : pose_(pose), seed_(seed) {}
   RayHit look(Vec3 origin, Vec3 direction) const override;
   bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;  // skin: what is printed
   bool blocked(Vec3 from, Vec3 direction, double far_mm) const override;
@@ -60,7 +53,7 @@ class ArtefactScene : public Scene {
     bool printed = false;
   };
   virtual Met meet(Vec3 o, Vec3 d) const = 0;  // artefact frame
-  ArtefactPose pose_;
+  BodyPose pose_;
 
  private:
   Met met_from(Vec3 origin, Vec3 direction) const;  // in world, but for the normal
@@ -69,7 +62,7 @@ class ArtefactScene : public Scene {
 
 class DumbbellScene final : public ArtefactScene {
  public:
-  DumbbellScene(const Dumbbell& dumbbell, const ArtefactPose& pose)
+  DumbbellScene(const Dumbbell& dumbbell, const BodyPose& pose)
       : ArtefactScene(pose, dumbbell.seed), dumbbell_(dumbbell) {}
   Vec3 centre_mm(int sphere) const;  // 0 at -x, 1 at +x; in world
 
@@ -80,8 +73,7 @@ class DumbbellScene final : public ArtefactScene {
 
 class PlateScene final : public ArtefactScene {
  public:
-  PlateScene(const FlatPlate& plate, const ArtefactPose& pose)
-      : ArtefactScene(pose, plate.seed), plate_(plate) {}
+  PlateScene(const FlatPlate& plate, const BodyPose& pose) : ArtefactScene(pose, plate.seed), plate_(plate) {}
   bool blocked(Vec3, Vec3, double) const override { return false; }
 
  private:
@@ -100,7 +92,7 @@ struct TargetPhotoOptions {
 struct ArtefactPlace {
   double right_mm = 0, down_mm = 0, distance_mm = 560;
   double pitch_deg = 0, yaw_deg = 0, roll_deg = 0;
-  ArtefactPose pose() const;
+  BodyPose pose() const;
 };
 
 // The `number`th of `count` boards in good poses (good_board_poses), in grey.

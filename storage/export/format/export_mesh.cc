@@ -22,14 +22,14 @@ bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 Result<void> check(const FaceModel& model) {
   const auto& mesh = model.mesh;
   const auto& texture = model.texture;
-  if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};
+  if (mesh.triangles.empty()) return invalid("the model has no surface to write");
   if (mesh.vertices_mm.size() > 0x7fffffff || (texture.rgb.empty() && !texture.uv.empty()))
-    return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
+    return invalid("the model's arrays do not fit together");
   RELIEVO_TRY(check_arrays(model));
   if (!std::ranges::all_of(mesh.vertices_mm, finite) || !std::ranges::all_of(texture.uv, [](const auto& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
       })) {
-    return Error{Errc::InvalidInput, "the model has vertices that are nowhere"};
+    return invalid("the model has vertices that are nowhere");
   }
   return {};
 }
@@ -80,7 +80,7 @@ Result<ExportMesh> make_export_mesh(const FaceModel& model, ExportFrame frame) {
                                           : std::array<std::uint8_t, 3>{rgb[0], rgb[1], rgb[2]});
   }
   if (!std::ranges::all_of(mesh.vertices_mm, finite)) {
-    return Error{Errc::InvalidInput, "the model's head frame cannot be right"};
+    return invalid("the model's head frame cannot be right");
   }
   return mesh;
 }

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/format/mesh_writers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "pipeline/model/seam_split.h"
 #include "storage/byte_order.h"
 #include "storage/export/format/export_mesh.h"
-#include "storage/export/format/number_text.h"
 #include "storage/model_blob.h"
 
 // Written by hand, not by Debian's tinygltf: its JSON library aborts the process when memory runs out.
@@ -36,10 +35,19 @@ class Buffer {
     return view_count_++;
   }
 
-  int add_floats(const std::vector<float>& values, std::size_t components) {
-    return add_array(values, components, kFloat, kVertices);
+  // Floats of the vertices, or indices. `components` numbers make one element: SCALAR, VEC2 or VEC3.
+  template <typename T>
+  int add_array(const std::vector<T>& values, std::size_t components, const std::string& box = {}) {
+    constexpr bool kOfVertices = std::is_floating_point_v<T>;
+    const int view = add_view(std::as_bytes(std::span(values)), kOfVertices ? kVertices : kIndices);
+    constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
+    accessors_ += accessors_.empty() ? "" : ",";
+    accessors_ += "{\"bufferView\":" + number_text(view) +
+                  ",\"componentType\":" + number_text(int(kOfVertices ? kFloat : kUint)) +
+                  ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" +
+                  kNames[components] + "\"" + box + "}";
+    return accessor_count_++;
   }
-  int add_indices(const std::vector<std::uint32_t>& values) { return add_array(values, 1, kUint, kIndices); }
   // The format wants to know the box that positions lie in.
   int add_positions(const std::vector<float>& values) {
     std::string low, high;
@@ -52,7 +60,7 @@ class Buffer {
       low += (c == 0 ? "" : ",") + number_text(least);
       high += (c == 0 ? "" : ",") + number_text(most);
     }
-    return add_array(values, 3, kFloat, kVertices, ",\"min\":[" + low + "],\"max\":[" + high + "]");
+    return add_array(values, 3, ",\"min\":[" + low + "],\"max\":[" + high + "]");
   }
 
   const std::vector<std::byte>& data() const { return data_; }
@@ -62,19 +70,6 @@ class Buffer {
   }
 
  private:
-  // `components` numbers make one element: SCALAR, VEC2 or VEC3.
-  template <typename T>
-  int add_array(const std::vector<T>& values, std::size_t components, ComponentType type, Target target,
-                const std::string& box = {}) {
-    const int view = add_view(std::as_bytes(std::span(values)), target);
-    constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
-    accessors_ += accessors_.empty() ? "" : ",";
-    accessors_ += "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(int(type)) +
-                  ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" +
-                  kNames[components] + "\"" + box + "}";
-    return accessor_count_++;
-  }
-
   std::vector<std::byte> data_;
   std::string views_, accessors_;
   int view_count_ = 0, accessor_count_ = 0;
@@ -120,7 +115,7 @@ std::string add_mesh(Buffer& to, const ExportMesh& mesh) {
   std::string attributes = "\"POSITION\":" + number_text(to.add_positions(arrays.positions));
   const auto add = [&](const char* name, const std::vector<float>& values, std::size_t components) {
     if (!values.empty())
-      attributes += std::string(",\"") + name + "\":" + number_text(to.add_floats(values, components));
+      attributes += std::string(",\"") + name + "\":" + number_text(to.add_array(values, components));
   };
   add("NORMAL", arrays.normals, 3);
   add("TEXCOORD_0", arrays.uvs, 2);
@@ -132,7 +127,7 @@ std::string add_mesh(Buffer& to, const ExportMesh& mesh) {
   for (const auto& triangle : split.triangles)
     indices.insert(indices.end(), triangle.begin(), triangle.end());
   return "\"meshes\":[{\"name\":\"face\",\"primitives\":[{\"attributes\":{" + attributes +
-         "},\"indices\":" + number_text(to.add_indices(indices)) + ",\"material\":0,\"mode\":4}]}],";
+         "},\"indices\":" + number_text(to.add_array(indices, 1)) + ",\"material\":0,\"mode\":4}]}],";
 }
 
 // Double-sided: a surface of a face is open at its edge. Not metal, not shiny.

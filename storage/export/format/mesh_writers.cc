@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/format/mesh_writers.h"
-
 #include <cmath>
 
 #include "pipeline/model/seam_split.h"
 #include "pipeline/model/vector3.h"
 #include "storage/byte_order.h"
-#include "storage/export/format/number_text.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 namespace {

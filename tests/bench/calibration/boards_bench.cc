@@ -50,22 +50,22 @@ struct Photograph {
   BoardCorners truth;  // not-a-number outside the picture
 };
 
-sim::BoardPose pose_of(const sim::BoardPattern& b, const sim::SimView& view, const Condition& c,
-                       sim::Random& random) {
+sim::BodyPose pose_of(const sim::BoardPattern& b, const sim::SimView& view, const Condition& c,
+                      sim::Random& random) {
   const double tilt = sim::radians(random.uniform(c.tilt_deg.from, c.tilt_deg.to)),
                compass = random.uniform(0, 6.2832);
-  sim::BoardPose pose;
-  pose.world_from_board =
+  sim::BodyPose pose;
+  pose.world_from_body =
       sim::rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.5, 0.5));
   const sim::Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
   const sim::Vec3 aim =
       view.ray(view.width_px * random.uniform(0.35, 0.65), view.height_px * random.uniform(0.4, 0.6));
   pose.origin_mm = view.centre() + aim * random.uniform(c.distance_mm.from, c.distance_mm.to) -
-                   pose.world_from_board * middle;
+                   pose.world_from_body * middle;
   return pose;
 }
 
-bool whole(const sim::BoardPattern& b, const sim::SimView& view, const sim::BoardPose& pose) {
+bool whole(const sim::BoardPattern& b, const sim::SimView& view, const sim::BodyPose& pose) {
   for (const double x : {-1.2, b.corners_x + 0.2})
     for (const double y : {-1.2, b.corners_y + 0.2}) {
       const sim::Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
@@ -86,14 +86,14 @@ Photograph photograph(const Condition& c, sim::BoardKind kind, bool cut_off, std
   out.pattern.kind = kind;
   out.pattern.corners_x = c.corners_x;
   out.pattern.corners_y = c.corners_y;
-  sim::BoardPose pose = pose_of(out.pattern, view, c, random);
+  sim::BodyPose pose = pose_of(out.pattern, view, c, random);
   // The largest board that is seen whole in this pose, then a share of it.
   double low = 1, high = 120;
   const sim::Vec3 middle = pose.to_world({(c.corners_x - 1) * 10.0, (c.corners_y - 1) * 10.0, 0});
   const auto sized = [&](double square_mm) {
     out.pattern.square_mm = square_mm;
     const sim::Vec3 half{(c.corners_x - 1) * square_mm / 2, (c.corners_y - 1) * square_mm / 2, 0};
-    pose.origin_mm = middle - pose.world_from_board * half;
+    pose.origin_mm = middle - pose.world_from_body * half;
     return whole(out.pattern, view, pose);
   };
   for (int i = 0; i < 30; ++i) (sized((low + high) / 2) ? low : high) = (low + high) / 2;

@@ -109,7 +109,7 @@ class Proof {
     std::vector<std::array<sim::LightPicture, 2>> light;
     sim::SensorOptions sensor;
     sensor.grey = true;
-    for (const sim::BoardPose& pose : *poses) {
+    for (const sim::BodyPose& pose : *poses) {
       const sim::BoardScene scene(printed, pose, {}, 1 / rig.left.fx_px);
       light.push_back({sim::expose(scene, rig.left, sensor, bench_.pool),
                        sim::expose(scene, rig.right, sensor, bench_.pool)});

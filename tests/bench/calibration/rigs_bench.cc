@@ -54,7 +54,7 @@ bool photograph(std::uint32_t seed, ThreadPool& pool, Rendered& out) {
   const auto poses = hal::sim::good_board_poses(out.rig, o.board, kGood + kBumped, seed);
   if (!poses) return false;
   for (int v = 0; v < kGood + kBumped; ++v) {
-    hal::sim::BoardPose pose = (*poses)[static_cast<std::size_t>(v)];
+    hal::sim::BodyPose pose = (*poses)[static_cast<std::size_t>(v)];
     const auto photo = [&](const hal::sim::SimView& view, std::uint64_t noise_seed) {
       const hal::sim::BoardScene scene(o.board, pose, o.board_look);
       return hal::sim::read_sensor(hal::sim::expose(scene, view, o.sensor, pool), o.sensor, noise_seed);

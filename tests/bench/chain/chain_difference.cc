@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware/measure/triangle_grid.h"
+#include "firmware/measure/measurement.h"
 
 namespace relievo::bench {
 namespace {

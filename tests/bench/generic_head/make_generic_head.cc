@@ -11,7 +11,7 @@
 // what is left of heads that took no part.
 #include <Eigen/SVD>
 
-#include "hal/sim/head/shape/form.h"
+#include "hal/sim/head/shape/head_field.h"
 
 #include <cmath>
 #include <cstdio>

@@ -24,7 +24,7 @@
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/base/process_memory.h"
-#include "firmware/kiosk/glass.h"
+#include "firmware/kiosk/kiosk.h"
 #include "firmware/work/jobs.h"
 #include "hal/clock.h"
 #include "hal/sim/device.h"

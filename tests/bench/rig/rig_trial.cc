@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "firmware/measure/triangle_grid.h"
+#include "firmware/measure/measurement.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
 #include "tests/support/rig_calibration.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Bursts of a face that moves, blurs, fails to come: which pair is kept, and how the lamp is spared.
-#include "firmware/capture/burst.h"
+#include "firmware/capture/stereo_grabber.h"
 
 #include <gtest/gtest.h>
 

@@ -96,7 +96,7 @@ TEST_F(CameraLinkTest, TheJobWaitsForACameraThatVanishedAndSaysSoMeanwhile) {
     ScriptedCamera& camera_;
     hal::Instant back_;
   } passing(clock, left);
-  OpenCamerasJob job(grabber, kMode, passing);
+  FunctionJob job([&](JobControl& c) { return open_cameras(grabber, kMode, passing, c); });
   pipeline::Progress progress;
   JobControl control{cancelled, progress};
   cancelled = true;

@@ -3,7 +3,7 @@
 //
 // A board and a simulated face, blurred by known amounts: the share that is peaked falls with every step of
 // blur; where there is only noise nothing is.
-#include "firmware/capture/focus_peaking.h"
+#include "firmware/capture/face_light.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,6 @@
 #include <random>
 #include <vector>
 
-#include "firmware/capture/face_light.h"
 #include "tests/support/head_album.h"
 
 namespace relievo::firmware {

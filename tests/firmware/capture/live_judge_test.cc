@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "firmware/capture/live_feed.h"
+#include "firmware/session/session.h"
 #include "pipeline/base/workspace.h"
 
 namespace relievo::firmware {

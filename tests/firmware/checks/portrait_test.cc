@@ -9,7 +9,6 @@
 
 #include "firmware/checks/optical_check.h"
 #include "firmware/measure/measurement.h"
-#include "firmware/measure/truth_view.h"
 #include "firmware/reconstruct/reconstruction.h"
 #include "hal/picture_file.h"
 #include "hal/sim/render.h"

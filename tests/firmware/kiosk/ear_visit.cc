@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "firmware/capture/live_judge.h"
-#include "firmware/kiosk/voice.h"
+#include "firmware/kiosk/kiosk.h"
 #include "tests/support/made_screen.h"
 #include "tests/support/manual_clock.h"
 #include "tests/support/recording_speaker.h"

@@ -4,7 +4,7 @@
 // The enrolment behind the pictures of all pages, on the simulated rig: what a person would pass by does not
 // end it, what nobody can pass by is told in its own words. Mostly without GL: what is written is the head of
 // the page that invites.
-#include "firmware/demo/screenshots.h"
+#include "firmware/demo/gallery.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/service/device_settings.h"
-#include "firmware/technician/algorithm_controller.h"
+#include "firmware/technician/test_capture.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"

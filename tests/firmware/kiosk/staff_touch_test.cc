@@ -46,8 +46,8 @@ TEST_F(StaffTouchTest, ATurnedPanelIsCorrectedAndStaysSo) {
   tap("begin");
   for (const float beside : {0.004F, -0.004F, 0.003F, -0.003F}) press("cross", beside);
   ASSERT_EQ(seen().step, ui::TouchStep::Test);
-  EXPECT_NEAR(std::abs(seen().turned_deg), 90, 2);
-  EXPECT_FALSE(seen().mirrored);
+  EXPECT_NEAR(std::abs(seen().fit->turned_deg), 90, 2);
+  EXPECT_FALSE(seen().fit->mirrored);
   press("cross");
   EXPECT_EQ(seen().verdict, TouchVerdict::Kept);
   press("back");

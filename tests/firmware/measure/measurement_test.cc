@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "firmware/measure/truth_view.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 

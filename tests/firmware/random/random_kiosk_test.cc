@@ -8,7 +8,7 @@
 #include <deque>
 #include <set>
 
-#include "firmware/kiosk/glass.h"
+#include "firmware/kiosk/kiosk.h"
 #include "tests/firmware/faults/fault_hands.h"
 #include "tests/firmware/random/random_events.h"
 #include "tests/support/memory_search.h"

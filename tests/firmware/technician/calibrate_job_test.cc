@@ -3,7 +3,7 @@
 //
 // Who reads the newest pair of a live calibration while the next one is being drawn sees left and right of
 // one instant. Nothing that happens to the cameras takes the views that they have given.
-#include "firmware/technician/calibrate_job.h"
+#include "firmware/technician/technician_jobs.h"
 
 #include <gtest/gtest.h>
 

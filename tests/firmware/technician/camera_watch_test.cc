@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The shape of whoever stood before the watched cameras is nowhere in memory when nobody watches any more.
-#include "firmware/technician/camera_watch.h"
+#include "firmware/technician/technician_jobs.h"
 
 #include <string.h>
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-#include "firmware/calibrate/calibrate_live.h"
+#include "firmware/calibrate/calibrate_command.h"
 
 namespace relievo::firmware {
 

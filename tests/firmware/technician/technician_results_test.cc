@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/measure/match_figures.h"
+#include "firmware/measure/comparison.h"
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {

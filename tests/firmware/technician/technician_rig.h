@@ -71,13 +71,13 @@ class TechnicianRig {
     screen = test::make_screen();
     appliance = std::make_unique<Appliance>(Appliance::Parts{*device, *stages, memory, pool, records});
     side_tasks = std::make_unique<SideTasks>(*appliance);
-    test_capture = std::make_unique<TestCapture>(TestCapture::Parts{
-        *appliance, *side_tasks, *device, *stages, pool, *store, log,
-        [this](const BoardArgs& args) -> Result<std::unique_ptr<LivePairs>> {
-          return std::unique_ptr<LivePairs>(
-              std::make_unique<SpoiledPairs>(make_hand_pairs(held_board(boards, args), 1), spoils));
-        },
-        [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
+    test_capture = std::make_unique<TestCapture>(
+        TechnicianParts{*appliance, *side_tasks, *device, *stages, pool, *store, log,
+                        [this](const BoardArgs& args) -> Result<std::unique_ptr<LivePairs>> {
+                          return std::unique_ptr<LivePairs>(std::make_unique<SpoiledPairs>(
+                              make_hand_pairs(held_board(boards, args), 1), spoils));
+                        },
+                        [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
     appliance->ask(ui::Intent::OpenStaff);
     turn();

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/measure/match_figures.h"
+#include "firmware/measure/comparison.h"
 #include "hal/picture_file.h"
 #include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"

@@ -67,6 +67,12 @@ TEST(Words, ANameIsShownInItsOwnDirectionAndWithoutWhatIsNoLetter) {
   EXPECT_EQ(shown_name(""), "");
 }
 
+TEST(Result, AnErrorIsTakenToAPlaceAndAValueIsNot) {
+  EXPECT_EQ(*half(4).at("there"), 2);
+  EXPECT_EQ(half(3).at("there").error().where(), "there");
+  EXPECT_TRUE(Result<void>().at("there"));
+}
+
 TEST(Words, ADetailIsOneLineWhateverTheFileIsCalled) {
   const Error error = Error{Errc::NotFound, "is not there: check the name"}.at("a\nb\x1b[31m.png");
   EXPECT_EQ(detail_of(error), "a?b?[31m.png: is not there: check the name");
@@ -81,6 +87,8 @@ TEST(Words, ValuesStandInTheirPlaces) {
   EXPECT_EQ(filled("{} of {}", {"5"}), "5 of {}");
   EXPECT_EQ(filled("none", {"5"}), "none");
   EXPECT_EQ(decimal(0.125, 2) + decimal(1.5, 1, true), "0.12+1.5");
+  EXPECT_EQ(printed("%-3s|%zu|%.1f", "a", std::size_t{7}, 0.25), "a  |7|0.2");
+  EXPECT_EQ(printed("%s", std::string(600, 'x').c_str()), std::string(511, 'x'));
 }
 
 TEST(Arena, GivesAlignedMemoryAndThrowsAtTheEnd) {

@@ -93,7 +93,7 @@ TEST(BoardScene, CornersAreWhereTheLensPutsThem) {
   SensorOptions sensor;
   sensor.noise = 0;
   sensor.grey = true;
-  for (const BoardPose& pose : *poses) {
+  for (const BodyPose& pose : *poses) {
     const PicturePair pair = render_pair(BoardScene(pattern, pose), rig, sensor, 1, pool);
     for (int y = 0; y < pattern.corners_y; y += 3)
       for (int x = 0; x < pattern.corners_x; x += 3) {
@@ -110,9 +110,9 @@ TEST(BoardScene, FourteenPosesTiltAllWays) {
   ASSERT_TRUE(poses);
   ASSERT_EQ(poses->size(), 14U);
   int left = 0, up = 0;
-  for (const BoardPose& p : *poses) {
-    left += p.world_from_board.row[0].z > 0.1 ? 1 : 0;
-    up += p.world_from_board.row[1].z > 0.1 ? 1 : 0;
+  for (const BodyPose& p : *poses) {
+    left += p.world_from_body.row[0].z > 0.1 ? 1 : 0;
+    up += p.world_from_body.row[1].z > 0.1 ? 1 : 0;
   }
   EXPECT_GE(left, 3);
   EXPECT_LE(left, 11);

@@ -37,7 +37,7 @@ class Plates final : public sim::Scene {
   sim::Mesh solid_mesh() const override { return far_.solid_mesh(); }
 
  private:
-  static sim::ArtefactPose place(double right_mm, double distance_mm) {
+  static sim::BodyPose place(double right_mm, double distance_mm) {
     return {sim::rotation(sim::radians(8), sim::radians(12), 0), {right_mm - 50, 0, distance_mm}};
   }
   sim::PlateScene near_, far_;

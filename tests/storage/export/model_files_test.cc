@@ -18,7 +18,7 @@
 
 #include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
-#include "storage/export/format/mesh_writers.h"
+#include "storage/export/format/export_mesh.h"
 #include "tests/storage/sample.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

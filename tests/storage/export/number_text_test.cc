@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/format/number_text.h"
+#include "storage/export/format/export_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <functional>
 
-#include "storage/person_record.h"
+#include "storage/record.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
@@ -227,7 +227,7 @@ TEST(Persons, OnAFullDiskNobodyIsHalfTakenIn) {
   EXPECT_TRUE(opened(disk.path() / "store", kNoReserve)->check());
 }
 
-// A new column is known here only once somebody has said whether it goes along (person_record.h).
+// A new column is known here only once somebody has said whether it goes along (person_record.cc).
 TEST(Persons, EveryColumnIsCarriedOrBelongsToTheStoreAlone) {
   const TemporaryFolder folder;
   { const auto store = with_ada(folder.path()); }

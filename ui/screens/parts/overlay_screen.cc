@@ -52,11 +52,10 @@ constexpr std::array kHelp{
 static_assert(kHelp.size() == kSteps.size());
 
 void begin_card(Page& page) {
-  Node veil = centred(page.box(Flow::Column, 0, 40, 32));
+  Node veil = page.painted(centred(page.box(Flow::Column, 0, 40, 32)), page.palette.veil);
   if (page.low()) veil.box.justify = Justify::End;
   veil.id = "veil";
   veil.modal = true;
-  veil.box.fill = page.palette.veil;
   page.tree.open(veil);
   Node card = page.box(Flow::Column, space::kM, 44, 40);
   frame(card, page.palette.card, page.palette.card_border, page.px(2), page.px(size::kCardRadius));

@@ -57,10 +57,7 @@ Node Page::row_box(float gap, float pad_x, float pad_y) const {
 }
 
 Node Page::stage(float radius_dp, float grow) const {
-  Node card = grown(box(Flow::Stack), grow);
-  card.box.fill = palette.stage;
-  card.box.radius = px(radius_dp);
-  return card;
+  return painted(grown(box(Flow::Stack), grow), palette.stage, radius_dp);
 }
 
 Node Page::model(std::string_view id, const char* words, float radius_dp) const {
@@ -136,20 +133,13 @@ void Page::progress(std::string_view id, float share) {
   // A bar that grew with every pixel would have the whole page drawn each time, beside the work it waits for.
   constexpr float kParts = 100;
   const float done = std::floor(std::clamp(share, 0.0F, 1.0F) * kParts) / kParts;
-  Node track = box(Flow::Row);
+  Node track = painted(box(Flow::Row), palette.track, 7);
   tell(track, Role::Status, id, tr("How far it is"));
   constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
   track.value = filled("{} %", std::to_string(int(done * 100) / kStep * kStep));
   track.box.height = px(14);
-  track.box.radius = px(7);
-  track.box.fill = palette.track;
   const auto in_track = tree.inside(track);
-  if (share > 0) {
-    Node bar = grown(box(Flow::Column), std::max(0.02F, done));
-    bar.box.radius = px(7);
-    bar.box.fill = palette.accent;
-    tree.leaf(bar);
-  }
+  if (share > 0) tree.leaf(painted(grown(box(Flow::Column), std::max(0.02F, done)), palette.accent, 7));
   if (done < 1) space(1 - done);
 }
 
@@ -299,12 +289,9 @@ void Page::steps() {
   tell(row, Role::Status, "steps", tr("How far it is"));
   row.value = share_of(std::size_t(now) + 1, 4);
   const auto in_row = tree.inside(row);
-  for (int i = 0; i < 4; ++i) {
-    Node dot = sized(box(Flow::Column), i == now ? 44.0F : 20.0F, 10);
-    dot.box.radius = px(5);
-    dot.box.fill = i <= now ? palette.accent : palette.track;
-    tree.leaf(dot);
-  }
+  for (int i = 0; i < 4; ++i)
+    tree.leaf(painted(sized(box(Flow::Column), i == now ? 44.0F : 20.0F, 10),
+                      i <= now ? palette.accent : palette.track, 5));
 }
 
 }  // namespace relievo::ui

@@ -127,6 +127,11 @@ class Page {
     node.box.width = px(width_dp_), node.box.height = px(height_dp_);
     return node;
   }
+  // Filled; round corners in dp.
+  Node painted(Node node, Colour fill, float radius_dp = 0) const {
+    node.box.fill = fill, node.box.radius = px(radius_dp);
+    return node;
+  }
   // Makes a card of it.
   void card(Node& node, float radius_dp) const {
     frame(node, palette.card, palette.card_border, px(1.5F), px(radius_dp));

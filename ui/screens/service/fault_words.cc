@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/screens/service/fault_words.h"
+#include "ui/screens/service/staff_frame.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "ui/screens/parts/page.h"
-#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
@@ -28,10 +27,8 @@ void dots(StaffFrame& page, const Action& done) {
   for (std::size_t i = 0; i < kMostPinDigits; ++i) {
     const bool typed = i < page.service.typed().size();
     const float across_dp = typed ? 20 : 12;
-    Node dot = page.sized(page.box(Flow::Column), across_dp, across_dp);
-    dot.box.radius = page.px(10);
-    dot.box.fill = typed ? page.palette.accent : page.palette.track;
-    page.tree.leaf(dot);
+    page.tree.leaf(page.painted(page.sized(page.box(Flow::Column), across_dp, across_dp),
+                                typed ? page.palette.accent : page.palette.track, 10));
   }
 }
 

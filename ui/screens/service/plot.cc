@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/screens/service/plot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,13 +8,18 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <string_view>
 
+#include "hal/base/result.h"
+#include "ui/device/settings.h"
+#include "ui/draw/theme.h"
+#include "ui/language/language.h"
 #include "ui/screens/parts/page.h"
-#include "ui/screens/service/plot.h"
 #include "ui/view/service.h"
 #include "ui/view/service_view.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 
@@ -34,6 +39,36 @@ template <std::size_t kCount, typename Which>
 const char* one_of(const Words& tr, const std::array<const char*, kCount>& english, Which which) {
   return tr(english[std::size_t(which)]);
 }
+
+// Plot: a series of values as bars or as a line, with an axis of round numbers and the limit across it. Who
+// listens is told the highest, the newest and the limit. It runs from left to right in every language, as
+// tables of measurements do. Thread: main. Errors: none.
+enum class PlotLook : std::uint8_t { Bars, Line };
+
+struct Plot {
+  std::string_view id, title;
+  std::string_view figure;  // beside the title: a sum, a median, what it is now
+  Colour figure_ink{};      // not seen: as figures are
+  const char* figure_sign = nullptr;
+  std::span<const float> values;            // NaN: not known
+  std::span<const std::string_view> names;  // where each value belongs on the axis: a day, a time
+  PlotLook look = PlotLook::Bars;
+  const char* unit = "";
+  float limit = std::numeric_limits<float>::quiet_NaN();  // NaN: there is none
+  std::array<std::string_view, 3>
+      under{};  // at the axis' start, middle and end; empty: those of the values there
+};
+
+// From a round number to a round number, by a step of 1, 2 or 5 times a power of ten.
+struct PlotScale {
+  double from = 0, step = 1;
+  int steps = 1;
+  double to() const { return from + step * steps; }
+  double share(double value) const { return (value - from) / (to() - from); }
+  int decimals() const;  // that its numbers need
+};
+// Holds 0 and all that is known; of nothing: 0 to 1.
+PlotScale plot_scale(std::span<const float> values, float limit);
 
 class StaffFrame : public Page {
  public:
@@ -71,7 +106,8 @@ class StaffFrame : public Page {
   void section(std::string_view words);
   // In the middle of a card that has no rows.
   void nothing(std::string_view id, const char* letter, std::string_view words);
-  void rule();  // a thin line between rows
+  Node line_box(float thick_dp, Colour colour) const;           // as wide as its room
+  void rule() { tree.leaf(line_box(1, palette.card_border)); }  // a thin line between rows
   // A line over the whole width.
   void line(std::string_view words, Mood mood = Mood::Plain);
   // A line of the log, in the reader's language.
@@ -117,6 +153,25 @@ class StaffFrame : public Page {
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                    const char* letter, Action action);
 };
+
+// The sentence of every error code and of every event of the log, in the reader's language. Thread: any.
+// Errors: none.
+const char* words_of(const Words& tr, Errc code);
+
+// `pattern` has a place {} for each value of the event, or for `role` where that is there.
+struct LogWords {
+  const char* pattern = "";
+  const char* role = nullptr;
+};
+LogWords words_of(const Words& tr, LogEvent event);
+
+// What a setting and its values are called: alike on the settings page and in the log.
+const char* name_of(const Words& tr, Setting setting);
+// `value` is one of info_of(setting).values.
+std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value);
+
+// A change as the log keeps it; empty where that is no setting, or no value of it (an older version's).
+std::string_view said_change(StaffFrame& page, std::string_view key, std::string_view value);
 
 // What every list of more than a page has: first, back, where one is, on, last, and its filters. "Where one
 // is" opens the ways to another place: ten stretches of the list, each with what stands at its top (a date, a

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cstdio>
 
-#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
@@ -210,11 +209,10 @@ void StaffFrame::due_rule() {
   rule_due_ = false;
 }
 
-void StaffFrame::rule() {
-  Node line = box(Flow::Column);
-  line.box.height = std::max(1.0F, px(1));
-  line.box.fill = palette.card_border;
-  tree.leaf(line);
+Node StaffFrame::line_box(float thick_dp, Colour colour) const {
+  Node line = painted(box(Flow::Column), colour);
+  line.box.height = std::max(1.0F, px(thick_dp));
+  return line;
 }
 
 void StaffFrame::step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,

@@ -5,7 +5,6 @@
 // log.
 #include <array>
 
-#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 

@@ -4,7 +4,6 @@
 // The page of settings; and the touch screen's correction: crosses to be touched, what came of it.
 #include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
-#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
@@ -81,11 +80,11 @@ void figures(StaffFrame& page, const TouchView& seen) {
   const auto& tr = page.tr;
   page.begin_list("touch");
   page.row("corrected", tr("Correction"), seen.corrected ? tr("yes") : tr("no"));
-  if (seen.measured) {
-    page.row("turned", tr("The panel is turned by"), page.number(seen.turned_deg, 1, "°"));
-    page.row("mirrored", tr("Mirrored"), seen.mirrored ? tr("yes") : tr("no"));
-    page.row("off", tr("The crosses were hit to within"), page.number(seen.off * 100, 2, "%"),
-             seen.off <= kMostTouchOff ? Mood::Good : Mood::Bad);
+  if (seen.fit) {
+    page.row("turned", tr("The panel is turned by"), page.number(seen.fit->turned_deg, 1, "°"));
+    page.row("mirrored", tr("Mirrored"), seen.fit->mirrored ? tr("yes") : tr("no"));
+    page.row("off", tr("The crosses were hit to within"), page.number(seen.fit->off * 100, 2, "%"),
+             seen.fit->off <= kMostTouchOff ? Mood::Good : Mood::Bad);
   }
   page.line(tr(
       "Four crosses, then one to test: anything changes only if that one is hit. A keypad and a mouse always work."));

@@ -15,10 +15,8 @@ void host(Page& page) {
   const auto in_row = page.tree.inside(page.row_box(space::kM));
   if (!host.sign.empty()) {
     const float aspect = aspect_of(host.sign_view());
-    Node card = page.box(Flow::Column, 0, 10, 10);
-    card.box.fill = {255, 255, 255, 255};
-    card.box.radius = page.px(14);
-    const auto in_card = page.tree.inside(card);
+    const auto in_card =
+        page.tree.inside(page.painted(page.box(Flow::Column, 0, 10, 10), {255, 255, 255, 255}, 14));
     Node sign = page.sized(page.box(Flow::Column), kSignHigh * std::min(kMostAcross, aspect), kSignHigh);
     depict(sign, PictureSlot::Sign, aspect);
     page.tree.leaf(sign);
@@ -91,10 +89,8 @@ constexpr float kBadge = 76;
 bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
 
 void badge(Page& page, const char* letter) {
-  Node box = justified(page.sized(page.box(Flow::Column), kBadge, kBadge), Justify::Centre);
-  box.box.fill = page.palette.accent.with_alpha(0.12F);
-  box.box.radius = page.px(kBadge / 4);
-  const auto in_box = page.tree.inside(box);
+  const Node box = justified(page.sized(page.box(Flow::Column), kBadge, kBadge), Justify::Centre);
+  const auto in_box = page.tree.inside(page.painted(box, page.palette.accent.with_alpha(0.12F), kBadge / 4));
   page.sign(letter, kBadge / 2 / page.text_share, page.palette.link);
 }
 
@@ -142,10 +138,7 @@ void attract_screen(Page& page) {
     tools(page);
   }
   page.tree.close();
-  if (!page.visit.rests(page.view.now)) return;
-  Node night = page.box(Flow::Column);
-  night.box.fill = {0, 0, 0, 150};
-  page.tree.leaf(night);
+  if (page.visit.rests(page.view.now)) page.tree.leaf(page.painted(page.box(Flow::Column), {0, 0, 0, 150}));
 }
 
 // What happens, what is kept, and the question. No camera has run before the answer.

@@ -151,9 +151,9 @@ Said unseen(const Page& page) {
 float grown_over(const Page& page) { return 1 + (page.text_share - 1) * 0.45F; }
 
 void begin_mirror(Page& page, const Said& what, float share, bool notes) {
-  Node root = page.box(Flow::Stack);
+  Node root = page.painted(page.box(Flow::Stack),
+                           page.visit.high_contrast ? page.palette.ground : Colour{255, 255, 255, 255});
   root.id = "page";
-  root.box.fill = page.visit.high_contrast ? page.palette.ground : Colour{255, 255, 255, 255};
   page.tree.open(root);
   picture(page);
   oval(page, what.good, share, notes);

@@ -89,10 +89,8 @@ void field(Page& page, const char* asked, float grow) {
                          Weight::Medium, hint ? page.palette.ink_soft : page.palette.ink);
   if (code) typed.style.size_px *= std::min(1.0F, kMostOfCode / page.text_share);  // it stays on one line
   typed.id = "typed";
-  Node caret = page.sized(page.box(Flow::Column), 3, 36);
-  caret.box.fill = page.palette.accent;
   if (!hint) page.tree.leaf(typed);
-  if (!code) page.tree.leaf(caret);
+  if (!code) page.tree.leaf(page.painted(page.sized(page.box(Flow::Column), 3, 36), page.palette.accent));
   if (hint) page.tree.leaf(typed);
 }
 
@@ -112,11 +110,9 @@ void finder(Page& page, float high_dp) {
   page.tree.leaf(picture);
   const float side = 0.62F * high_dp, arm = 0.16F * high_dp, line = 4;
   const auto bar = [&](float x, float y, float w, float h) {
-    Node one =
+    const Node one =
         pinned(page.sized(page.box(Flow::Column), w, h), 0.5F + x / (high_dp * aspect), 0.5F + y / high_dp);
-    one.box.fill = {255, 255, 255, 235};
-    one.box.radius = page.px(line / 2);
-    page.tree.leaf(one);
+    page.tree.leaf(page.painted(one, {255, 255, 255, 235}, line / 2));
   };
   for (const float right : {-1.0F, 1.0F})
     for (const float down : {-1.0F, 1.0F}) {

@@ -94,10 +94,8 @@ void sides(Page& page) {
   const auto& turn = page.view.live.turn;
   constexpr float kFurthestDeg = 62, kStopDp = 46, kMarkerDp = 22;
   const auto disc_at = [&](float deg, float across_dp) {
-    Node disc = pinned(centred(page.sized(page.box(Flow::Column), across_dp, across_dp)),
-                       0.5F - deg / (2 * kFurthestDeg), 0.5F);
-    disc.box.radius = page.px(across_dp / 2);
-    return disc;
+    return pinned(centred(page.sized(page.box(Flow::Column), across_dp, across_dp)),
+                  0.5F - deg / (2 * kFurthestDeg), 0.5F);
   };
   constexpr float kHighDp = kStopDp + 18;
   Node rail = left_first(page.grown(page.box(Flow::Stack)));
@@ -118,9 +116,10 @@ void sides(Page& page) {
     if (taken) page.sign(icon::kGood, 28 / page.text_share, page.palette.card);
   }
   if (turn && turn->advice != pipeline::TurnAdvice::Lost) {
-    Node marker = disc_at(std::clamp(turn->yaw_deg, 2 - kFurthestDeg, kFurthestDeg - 2), kMarkerDp);
+    Node marker =
+        page.painted(disc_at(std::clamp(turn->yaw_deg, 2 - kFurthestDeg, kFurthestDeg - 2), kMarkerDp),
+                     page.palette.accent, kMarkerDp / 2);
     marker.id = "turned";
-    marker.box.fill = page.palette.accent;
     page.tree.leaf(marker);
   }
 }

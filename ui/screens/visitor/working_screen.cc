@@ -22,10 +22,8 @@ int stage_under_way(const ViewState& view) {
 // In a corner of the picture, so that the words below keep the whole width and stay where they are.
 void tick(Page& page) {
   const float across_dp = 38 * page.text_share;
-  Node disc = centred(page.sized(page.box(Flow::Column), across_dp, across_dp));
-  disc.box.radius = page.px(across_dp / 2);
-  disc.box.fill = page.palette.card;
-  const auto in_disc = page.tree.inside(disc);
+  const auto in_disc = page.tree.inside(page.painted(
+      centred(page.sized(page.box(Flow::Column), across_dp, across_dp)), page.palette.card, across_dp / 2));
   page.sign(icon::kGood, 30, page.palette.good);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/calibrate/calibrate_live.h"
+#include "firmware/calibrate/calibrate_command.h"
 #include "firmware/demo/hand_pairs.h"
 
 #include <filesystem>

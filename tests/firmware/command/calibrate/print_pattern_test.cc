@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The printed page, judged as a printer and a camera would: rendered, and its board found and measured.
-#include "firmware/calibrate/print_pattern.h"
+#include "firmware/calibrate/calibrate_command.h"
 
 #include <gtest/gtest.h>
 

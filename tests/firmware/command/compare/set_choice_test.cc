@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "firmware/compare/suites.h"
+#include "firmware/compare/set_run.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware::compare {

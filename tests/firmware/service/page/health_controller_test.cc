@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/service/page/health_controller.h"
+#include "firmware/service/page_controller.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "firmware/records/receipt.h"
-#include "firmware/service/page/health_controller.h"
 #include "firmware/service/page_controller.h"
 #include "firmware/service/record_filter.h"
 #include "tests/firmware/played_appliance.h"
@@ -108,7 +107,7 @@ TEST_F(PageTest, WhoseErasureWasConfirmedIsErasedThoughTheOperatorSignsOutMeanwh
 }
 
 TEST_F(PageTest, ASelfTestThatWasCancelledBySigningOutCanBeBegunAgain) {
-  const auto made = self_test_controller(services);
+  const auto made = device_controller(services, ui::StaffPage::SelfTest);
   PageController& page = *made;
   page.opened();
   keep_busy(JobLane::Keeper);
@@ -126,7 +125,7 @@ TEST_F(PageTest, ASelfTestThatWasCancelledBySigningOutCanBeBegunAgain) {
 }
 
 TEST_F(PageTest, ATriggerTestThatWasCancelledBySigningOutCanBeBegunAgain) {
-  const auto made = trigger_controller(services);
+  const auto made = device_controller(services, ui::StaffPage::Trigger);
   PageController& page = *made;
   page.opened();
   keep_busy(JobLane::Capture);
@@ -161,7 +160,7 @@ TEST_F(PageTest, ADiskThatDoesNotAnswerIsToldAsSeldomAsItsRoomIsKept) {
 }
 
 TEST_F(PageTest, TheDeviceIsLookedAtAgainAfterALookThatSigningOutCancelled) {
-  const auto made = status_controller(services);
+  const auto made = device_controller(services, ui::StaffPage::Menu);
   PageController& page = *made;
   page.opened();
   keep_busy(JobLane::Keeper);
@@ -176,7 +175,7 @@ TEST_F(PageTest, TheDeviceIsLookedAtAgainAfterALookThatSigningOutCancelled) {
 
 TEST_F(PageTest, TheFirstPageTellsOnceThatTheDiskDoesNotAnswer) {
   services.folder = folder.path() / "gone";
-  const auto made = status_controller(services);
+  const auto made = device_controller(services, ui::StaffPage::Menu);
   PageController& page = *made;
   page.opened();
   for (int look = 0; look < 5; ++look) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Two planes a millimetre apart differ by a millimetre, with its sign; a step has its own on each side.
-#include "firmware/technician/show/surface_difference.h"
+#include "firmware/technician/show/technician_pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -23,10 +23,10 @@ SensorOptions quiet() {
   return sensor;
 }
 
-BoardPose at(double right_mm, double about_y = 0.3) {
-  BoardPose pose;
-  pose.world_from_board = rotation(0.2, about_y, 0.1);
-  pose.origin_mm = Vec3{right_mm, 0, 620} - pose.world_from_board * Vec3{90, 60, 0};
+BodyPose at(double right_mm, double about_y = 0.3) {
+  BodyPose pose;
+  pose.world_from_body = rotation(0.2, about_y, 0.1);
+  pose.origin_mm = Vec3{right_mm, 0, 620} - pose.world_from_body * Vec3{90, 60, 0};
   return pose;
 }
 
@@ -53,7 +53,7 @@ TEST(HeldBoard, IsHeldAsSaid) {
 
 TEST(HeldBoard, IsSeenWhereTheRigProjectsIt) {
   HeldBoard board(kRig, {}, quiet(), 2);
-  const BoardPose pose = at(0);
+  const BodyPose pose = at(0);
   const auto pair = board.photograph(pose, pose, 1);
   for (int row = -1; row < 7; ++row)
     for (int column = -1; column < 10; ++column) {
@@ -68,8 +68,8 @@ TEST(HeldBoard, IsSeenWhereTheRigProjectsIt) {
 
 TEST(HeldBoard, ALineBetweenDarkAndBrightIsInTheMiddleOfItsBlur) {
   HeldBoard board(kRig, {}, quiet(), 2);
-  const BoardPose pose = at(0, 0);
-  BoardPose closed = pose;
+  const BodyPose pose = at(0, 0);
+  BodyPose closed = pose;
   closed.origin_mm.x += 8;  // 10 px
   const auto still = board.photograph(pose, pose, 1);
   const auto moved = board.photograph(pose, closed, 1);
@@ -101,7 +101,7 @@ TEST(HeldBoard, NoiseHasNoStripes) {
   SensorOptions sensor;
   sensor.gamma = false;
   HeldBoard board(kRig, {}, sensor, 2);
-  BoardPose away = at(0);
+  BodyPose away = at(0);
   away.origin_mm.x += 2000;
   const auto picture = board.photograph(away, away, 3).left;
   for (const int shift : {-1, 0, 1}) {
@@ -121,7 +121,7 @@ TEST(HeldBoard, NoiseHasNoStripes) {
 
 TEST(HeldBoard, BesideThePicturesItIsNotSeen) {
   HeldBoard board(kRig, {}, quiet(), 2);
-  BoardPose away = at(0);
+  BodyPose away = at(0);
   away.origin_mm.x += 2000;
   const auto pair = board.photograph(away, away, 1);
   const auto first = pair.left.bytes.front();

@@ -14,7 +14,7 @@
 namespace relievo::hal::sim {
 namespace {
 
-ArtefactPose turned() { return ArtefactPlace{12, -7, 560, 15, 25, 40}.pose(); }
+BodyPose turned() { return ArtefactPlace{12, -7, 560, 15, 25, 40}.pose(); }
 
 TargetPhotoOptions small_photo() {
   TargetPhotoOptions o;
@@ -34,7 +34,7 @@ TEST(DumbbellScene, EveryPointMetLiesOnASphereOrTheRod) {
     SolidPoint s;
     if (!scene.solid({0, 0, 0}, ray, s)) continue;
     EXPECT_LT(dot(s.normal, ray), 0);
-    const Vec3 p = turned().to_artefact(s.point);
+    const Vec3 p = turned().to_body(s.point);
     const double to_sphere =
         std::min(length(s.point - scene.centre_mm(0)), length(s.point - scene.centre_mm(1)));
     if (s.skin) {

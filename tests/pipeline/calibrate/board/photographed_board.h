@@ -32,17 +32,17 @@ struct PhotographedBoard {
     rig.height_px = width_px * 5 / 8;
     return hal::sim::make_rig(rig).left;
   }
-  hal::sim::BoardPose pose() const {
+  hal::sim::BodyPose pose() const {
     using namespace hal::sim;
     const SimView camera = view();
     const double tilt = radians(tilt_deg), compass = radians(compass_deg);
-    BoardPose at;
-    at.world_from_board =
+    BodyPose at;
+    at.world_from_body =
         rotation(tilt * std::sin(compass), tilt * std::cos(compass), 0) * rotation(0, 0, radians(roll_deg));
     const Vec3 middle{(print.corners_x - 1) * print.square_mm / 2,
                       (print.corners_y - 1) * print.square_mm / 2, 0};
     const Vec3 aim = camera.ray((camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0);
-    at.origin_mm = aim * distance_mm + Vec3{right_mm, down_mm, 0} - at.world_from_board * middle;
+    at.origin_mm = aim * distance_mm + Vec3{right_mm, down_mm, 0} - at.world_from_body * middle;
     return at;
   }
   hal::Picture photograph() const {

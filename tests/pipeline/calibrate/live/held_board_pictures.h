@@ -12,7 +12,7 @@
 
 namespace relievo::tests {
 
-inline hal::sim::BoardPose pose_of(const BoardAt& at, const pipeline::BoardPattern& pattern) {
+inline hal::sim::BodyPose pose_of(const BoardAt& at, const pipeline::BoardPattern& pattern) {
   const hal::sim::HeldPlace place{at.right_mm, at.down_mm,   at.distance_mm,
                                   at.yaw_deg,  at.pitch_deg, at.roll_deg};
   return place.pose(hal::sim::BoardPattern{pattern.columns, pattern.rows, pattern.square_mm});

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A known series, and where its marks stand in the draw list: by the axis' own numbers.
-#include "ui/screens/service/plot.h"
 
 #include <gtest/gtest.h>
 

@@ -31,12 +31,10 @@ void kinds(TechnicianFrame& f) {
     const bool chosen = i == f.seen.choice.kind;
     const char* label = label_of(f.tr, kind.key);
     const Colour ink = chosen ? f.palette.accent_ink : f.palette.ink;
-    Node row = f.box(Flow::Column, 2, 12, 8);
+    Node row = f.painted(justified(f.box(Flow::Column, 2, 12, 8), Justify::Centre),
+                         chosen ? f.palette.accent : f.palette.card, 12);
     tell(row, Role::Button, f.id("kind", i), label, ChooseKind{i});
     row.box.min_height = f.px(size::kStaffTarget);
-    row.box.justify = Justify::Centre;
-    row.box.radius = f.px(12);
-    row.box.fill = chosen ? f.palette.accent : f.palette.card;
     const auto in_row = f.tree.inside(row);
     f.write(label, type::kSmall, Weight::Medium, ink);
     f.write(f.left_to_right(f.breakable(kind.value)), 17, Weight::Regular,

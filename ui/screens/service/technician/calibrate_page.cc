@@ -58,11 +58,9 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
     const auto in_line = f.tree.inside(left_first(f.grown(f.box(Flow::Row, 3))));
     for (std::size_t column = 0; column < kCoverageCells; ++column) {
-      Node cell = f.grown(f.box(Flow::Column));
       const float share = std::min(1.0F, float(seen[row * kCoverageCells + column]) / 40);
-      cell.box.fill = share > 0 ? f.palette.accent.with_alpha(0.45F + 0.55F * share) : f.palette.track;
-      cell.box.radius = f.px(3);
-      f.tree.leaf(cell);
+      const Colour fill = share > 0 ? f.palette.accent.with_alpha(0.45F + 0.55F * share) : f.palette.track;
+      f.tree.leaf(f.painted(f.grown(f.box(Flow::Column)), fill, 3));
     }
   }
 }

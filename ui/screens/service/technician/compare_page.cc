@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <string>
 
-#include "ui/screens/service/fault_words.h"
+#include "ui/screens/service/staff_frame.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -154,12 +154,10 @@ class Columns {
   }
   void drop_button(std::size_t i) {
     const auto in_box_2 = f.tree.inside(f.box(Flow::Column));
-    Node end = justified(f.box(Flow::Row), Justify::End);
-    const auto in_end = f.tree.inside(end);
-    Node cross = centred(f.sized(f.box(Flow::Row), size::kStaffTarget, size::kStaffTarget));
+    const auto in_end = f.tree.inside(justified(f.box(Flow::Row), Justify::End));
+    Node cross = f.painted(centred(f.sized(f.box(Flow::Row), size::kStaffTarget, size::kStaffTarget)),
+                           f.palette.quiet, 12);
     tell(cross, Role::Button, f.id("drop", i), f.tr("Drop this result"), DropResult{i});
-    cross.box.radius = f.px(12);
-    cross.box.fill = f.palette.quiet;
     const auto in_cross = f.tree.inside(cross);
     f.sign(icon::kClose, 26 / f.text_share, f.palette.link);
   }

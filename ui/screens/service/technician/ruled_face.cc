@@ -61,10 +61,8 @@ void TechnicianFrame::ruler() {
   tree.mark({{mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, px(kScaleDp), false});
   const auto in_corner = tree.inside(
       aligned(box(Flow::Column, 0, kMargin - kGroundPadDp, kMargin + kScaleDp + 2), Align::Start));
-  Node words = box(Flow::Column, 4, kGroundPadDp, 4);
-  words.box.fill = kGround;  // the words may come to lie on the face
-  words.box.radius = px(kGroundPadDp);
-  const auto in_words = tree.inside(words);
+  // The words may come to lie on the face.
+  const auto in_words = tree.inside(painted(box(Flow::Column, 4, kGroundPadDp, 4), kGround, kGroundPadDp));
   put("scale", Role::Text, number(mm, 0, "mm"), 18, Weight::Medium, kScale);
   if (ruler.on) {
     const bool both = ruler.count == 2;

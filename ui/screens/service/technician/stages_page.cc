@@ -171,10 +171,8 @@ void rule_rows(TechnicianFrame& f) {
     Node row = f.row_box(space::kS, 0, 6);
     row.id = f.id("rule", i);
     const auto in_row = f.tree.inside(row);
-    Node patch = f.sized(f.box(Flow::Column), 26, 26);
-    patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
-    patch.box.radius = f.px(6);
-    f.tree.leaf(patch);
+    f.tree.leaf(
+        f.painted(f.sized(f.box(Flow::Column), 26, 26), {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255}, 6));
     f.wide(f.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.palette.ink));
     f.write(f.number(rule.rejected), type::kSmall, Weight::Regular, f.palette.ink_soft);
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ui/screens/service/fault_words.h"
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
 namespace {
@@ -107,10 +107,7 @@ void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken,
 }
 
 void TechnicianFrame::pin_line(float y, Colour colour, float thick_dp) {
-  Node line = pinned(box(Flow::Column), 0.5F, y);
-  line.box.height = std::max(1.0F, px(thick_dp));
-  line.box.fill = colour;
-  tree.leaf(line);
+  tree.leaf(pinned(line_box(thick_dp, colour), 0.5F, y));
 }
 
 void TechnicianFrame::pin_dot(float x, float y, Colour colour, std::string_view id) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/comparison.h"
 #include "hal/picture_file.h"
 #include "tests/support/temporary_folder.h"
 

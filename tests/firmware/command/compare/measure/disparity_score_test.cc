@@ -8,8 +8,6 @@
 
 #include <algorithm>
 
-#include "firmware/measure/match_figures.h"
-
 namespace relievo::firmware::compare {
 namespace {
 

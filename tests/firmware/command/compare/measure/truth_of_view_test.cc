@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/comparison.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "tests/support/stage_fixture.h"
