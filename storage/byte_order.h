@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Numbers to little-endian bytes and back: as they lie in the memory of the machines this runs on. Floating
-// point goes by its bits: NaN payloads and negative zero survive.
+// point goes by its bits: NaN payloads and negative zero survive. And bytes as libsodium takes them.
 //
 // A form of bytes has one walk over its fields, walk(io, fields): a ByteWriter writes them, a ByteReader
 // reads them, and the two cannot differ.

@@ -95,7 +95,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 inline constexpr milliseconds kTick{50};  // the main loop turns at least this often
 inline constexpr milliseconds kHangLimit{
-    8'000};  // the main loop has not turned: the program is ended (base/process_memory.h)
+    8'000};  // the main loop has not turned: the program is ended (base/sentinel.h)
 inline constexpr milliseconds kLivePause{30};  // between two live pictures: others need the processor, too
 inline constexpr microseconds kTriggerPulse{100};
 inline constexpr milliseconds kFrameWait{2000};         // from the trigger to both pictures

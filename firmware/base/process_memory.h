@@ -7,13 +7,10 @@
 // gets it until the machine stands still. Thread: main.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <functional>
-#include <thread>
 
 #include "hal/base/result.h"
-#include "hal/clock.h"
 
 namespace relievo::firmware {
 
@@ -43,35 +40,5 @@ Result<void> bound_memory(std::size_t more_bytes);
 // of a scripted visit. Of the program alone, not of the libraries it is made of. Thread: any.
 // Empty under a sanitizer, which has a heap of its own.
 std::function<long()> allocation_count();
-
-// Sentinel: ends a program that hangs. The main loop kicks it every turn, and whoever waits for a thread that
-// does not end does not kick: so a frozen main loop and any frozen thread somebody needs are noticed alike.
-// What supervises the program (systemd with Restart=always) then starts it anew; nothing of a visitor
-// outlives the process. A hardware watchdog stands behind it, for a machine that hangs as a whole.
-//
-// Thread: kick() main; `hangs` is called on a thread of its own, once a hang.
-
-class Sentinel {
- public:
-  // The clock outlives it.
-  explicit Sentinel(const hal::Clock& clock, std::function<void()> hangs = end_program);
-  ~Sentinel();
-  Sentinel& operator=(Sentinel&&) = delete;
-
-  // From the first on it is waited for.
-  void kick() { kicked_.store(clock_.now().time_since_epoch().count(), std::memory_order_relaxed); }
-
-  // Says why on standard error and aborts.
-  [[noreturn]] static void end_program();
-
- private:
-  void watch();
-
-  const hal::Clock& clock_;
-  std::function<void()> hangs_;
-  std::atomic<hal::Instant::rep> kicked_{0};
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
 
 }  // namespace relievo::firmware

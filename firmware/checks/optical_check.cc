@@ -322,6 +322,7 @@ Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& cali
 
 Result<OpticalCheck> check_optically(const Photograph& photograph, const OpticalCheckOptions& options,
                                      std::atomic<const char*>& at, JobControl& control) {
+  at = "Calibrate";
   const auto shots = float(std::size_t(options.boards) + options.dumbbells.size() + options.plates.size());
   float done = 0;
   const auto each = [&] { control.progress.done.store(++done / shots); };

@@ -7,6 +7,7 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/base/process_memory.h"
+#include "firmware/base/sentinel.h"
 #include "firmware/command/commands.h"
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/kiosk/script/script_player.h"

@@ -209,7 +209,7 @@ struct Comparison {
   double limit_px = 1;    // off by more is bad
 };
 
-// The figures of comparison.h that need more than a map: of matches and the places they are asked for, and
+// Those of the figures above that need more than a map: of matches and the places they are asked for, and
 // how well a result agrees with its own two pictures. Pixels of the rectified views. Thread: worker. Errors:
 // those of the steps that are run once more.
 

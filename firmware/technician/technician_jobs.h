@@ -126,10 +126,6 @@ class TestShotJob final : public CameraJob {
   bool side_ = false;
 };
 
-// CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
-// focus of the middle of each, how far apart the two were exposed, what the grabber has counted, and the
-// relief when asked. It watches in the session's free slot, beside the test capture, until it is cancelled.
-// Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
 // What reliefs are made in: the session's memory may be the worker's meanwhile.
 struct ReliefRoom {
   BootMemory memory{0, std::size_t{4} << 20, std::size_t{64} << 20};  // touched: 1 MB and 27 MB
@@ -138,6 +134,10 @@ struct ReliefRoom {
   ~ReliefRoom() { output.wipe(), scratch.wipe(); }
 };
 
+// CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
+// focus of the middle of each, how far apart the two were exposed, what the grabber has counted, and the
+// relief when asked. It watches in the session's free slot, beside the test capture, until it is cancelled.
+// Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
 class CameraWatchJob final : public CameraJob {
  public:
   using CameraJob::CameraJob;

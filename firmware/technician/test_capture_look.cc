@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the picture pages show: borrowed from its parts, and from the session only while nobody works on it.
+// What the picture pages show: borrowed from its parts, and from the session only while nobody works on it;
+// and the results that are put aside.
 #include "firmware/technician/test_capture.h"
 
 #include <algorithm>

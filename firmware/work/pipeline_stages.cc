@@ -53,7 +53,7 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
                                  StageRecord& record) {
   if (!pipeline_) return uncalibrated();
   if (!is_stage(stage)) return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
-  const Result<void> done = run_stage(stage, products, context, record);
+  const Result<void> done = do_stage(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
   if (done || stage >= State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
     return done;
@@ -61,8 +61,9 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
   return done;
 }
 
-Result<void> PipelineStages::run_stage(State stage, Products& made, pipeline::StageContext& context,
-                                       StageRecord& record) const {
+Result<void> PipelineStages::do_stage(State stage, Products& made, pipeline::StageContext& context,
+                                      StageRecord& record) const {
+  static_assert(kStages.size() == 5);  // one more has its own branch here
   if (stage == State::Match) {
     RELIEVO_ASSERT(made.frame.has_value());
     record.in = pixels(made.frame->left) + pixels(made.frame->right);

@@ -56,8 +56,8 @@ class PipelineStages final : public StageRunner {
                                    pipeline::StageContext& context) override;
 
  private:
-  Result<void> run_stage(State stage, Products& made, pipeline::StageContext& context,
-                         StageRecord& record) const;
+  Result<void> do_stage(State stage, Products& made, pipeline::StageContext& context,
+                        StageRecord& record) const;
 
   pipeline::AlgorithmSet set_;
   std::optional<pipeline::Pipeline> pipeline_;

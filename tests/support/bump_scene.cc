@@ -42,10 +42,15 @@ double BumpScene::disparity(double x, double y) const {
   const double dx = x - width_px / 2.0;
   const double dy = y - height_px / 2.0;
   const double r2 = (dx * dx + dy * dy) / (bump_radius_px * bump_radius_px);
-  return base_px + tilt * dx + bump_px * std::exp(-r2) + ripple_px * ripple(x);
+  return base_px + tilt * dx + bump_px * std::exp(-r2) + ripple_px * ripple(x) - groove_px * groove(y);
 }
 
 double BumpScene::ripple(double x) const { return std::sin(2 * std::numbers::pi * x / ripple_period_px); }
+
+double BumpScene::groove(double y) const {
+  const double v = (y - 0.75 * height_px) / groove_radius_px;
+  return std::exp(-0.5 * v * v);
+}
 
 bool BumpScene::judged(double x, double y) const {
   constexpr double kMargin = 24;
@@ -87,12 +92,14 @@ pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) con
     for (int x = 0; x < width_px; ++x) {
       const auto k =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
-      pair.left.grey[k] = static_cast<float>(texture.at(x, y) + normal(random));
+      pair.left.grey[k] =
+          static_cast<float>((1 - groove_dark * groove(y)) * texture.at(x, y) + normal(random));
       const double row = y - rows_px - rows_tilt * (x - width_px / 2.0) - moved(x, y);
       double from = x + disparity(x, row);  // x_left with x_left - d(x_left) = x
       for (int i = 0; i < 60; ++i) from = x + disparity(from, row);
       pair.right.grey[k] =
-          static_cast<float>(right_gain * texture.at(from, row) + right_offset + normal(random));
+          static_cast<float>(right_gain * (1 - groove_dark * groove(row)) * texture.at(from, row) +
+                             right_offset + normal(random));
     }
   return pair;
 }

@@ -22,6 +22,9 @@ struct BumpScene {
   double bump_radius_px = 60;
   double ripple_px = 0;  // waves along x besides, amplitude
   double ripple_period_px = 31;
+  double groove_px = 0;  // a groove of this depth along x besides, three quarters down
+  double groove_radius_px = 3;
+  double groove_dark = 0;   // share of the light that is missing at its bottom
   double contrast = 20;     // grey levels, standard deviation
   double noise = 1.0;       // grey levels, standard deviation, each view its own
   double right_gain = 1.0;  // the right camera sees gain * grey + offset
@@ -37,6 +40,7 @@ struct BumpScene {
 
   double disparity(double x, double y) const;
   double ripple(double x) const;           // its wave, amplitude 1
+  double groove(double y) const;           // its section, depth 1
   double moved(double x, double y) const;  // of the right view, beside rows_px and rows_tilt
   pipeline::RectifiedPair render(std::pmr::memory_resource* memory) const;
   // Inside the picture, away from its edges and from what the other view does not see.

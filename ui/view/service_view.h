@@ -128,7 +128,7 @@ struct ServiceView {
 };
 
 // Fault: an error of the engine as the staff's pages show it: its code, which they say in the reader's
-// language (ui/screens/service/staff_frame.h), and its detail in English, as it was written. Visitors see
+// language (ui/screens/service/fault_words.cc), and its detail in English, as it was written. Visitors see
 // none. Thread: any. Errors: none.
 struct Fault {
   Errc code = Errc::InvalidState;

@@ -377,6 +377,7 @@ std::unique_ptr<PageController> device_controller(PageServices& services, ui::St
   if (page == ui::StaffPage::SelfTest) return std::make_unique<SelfTestController>(services);
   if (page == ui::StaffPage::Trigger) return std::make_unique<TriggerController>(services);
   if (page == ui::StaffPage::Log) return std::make_unique<LogController>(services);
+  RELIEVO_ASSERT(page == ui::StaffPage::Menu);
   return std::make_unique<StatusController>(services);
 }
 

@@ -80,13 +80,19 @@ class GammaTable {
       }
       least_[byte] = reached;
     }
+    for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = to_byte_by_power(double(i) / kCells);
   }
   std::uint8_t operator()(double v) const {
-    return std::uint8_t(std::ranges::upper_bound(least_, std::max(v, 0.0)) - least_.begin() - 1);
+    if (v >= 1) return 255;
+    std::uint8_t byte = near_[std::size_t(std::max(v, 0.0) * kCells)];
+    while (byte < 255 && v >= least_[byte + 1U]) ++byte;
+    return byte;
   }
 
  private:
+  static constexpr int kCells = 4096;
   std::array<double, 256> least_{};
+  std::array<std::uint8_t, kCells> near_{};  // of the darkest light of every cell
 };
 
 std::uint8_t to_byte(double v, bool gamma) {

@@ -188,18 +188,20 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
 }  // namespace
 
 void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain,
-                   const BendingExpectation& expected, ThreadPool& pool, Plane<float>& across,
-                   Plane<float>& wrinkled, BendingSystem& system) {
+                   const BendingExpectation& expected, const Folds& folds, ThreadPool& pool,
+                   Plane<float>& across, Plane<float>& wrinkled, BendingSystem& system) {
   measure_wrinkles(d, domain, expected.wrinkle, pool, across, wrinkled);
   const auto lambda = float(expected.lambda);
   const auto crease2 = float(1 / (expected.crease * expected.crease));
   pool.for_each(d.height, kWeightBands, [&](int y) {
     for (int x = 0; x < d.width; ++x) {
       const Bends bends = bends_at(d, domain, x, y);
-      const float omega = lambda / (1 + bends.squared * crease2 + wrinkled.row(y)[x]);
-      system.bend_xx.row(y)[x] = bends.row ? omega : 0;
-      system.bend_yy.row(y)[x] = bends.column ? omega : 0;
-      system.bend_xy.row(y)[x] = bends.cell ? 2 * omega : 0;
+      const float bent = 1 + bends.squared * crease2 + wrinkled.row(y)[x];
+      const float xx = lambda / (bent + kFolded / 255 * float(folds.xx.row(y)[x]));
+      const float yy = lambda / (bent + kFolded / 255 * float(folds.yy.row(y)[x]));
+      system.bend_xx.row(y)[x] = bends.row ? xx : 0;
+      system.bend_yy.row(y)[x] = bends.column ? yy : 0;
+      system.bend_xy.row(y)[x] = bends.cell ? 2 * std::sqrt(xx * yy) : 0;
     }
   });
 }

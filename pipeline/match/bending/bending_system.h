@@ -61,10 +61,22 @@ struct BendingExpectation {
   double wrinkle;  // likewise; 0: a neighbourhood's bends say nothing
 };
 
+// Where the surface may fold: 0 nowhere, 255 surely. The folds' lines lead along y in `xx`, along x in `yy`.
+// There 1 + ... becomes kFolded more for the second differences that cross the line, and those along it stay
+// held: a groove that is hardly wider than the lattice's nodes is known from its whole length, and so bends
+// where the prior for skin, alike in all directions, would smooth it away.
+inline constexpr float kFolded = 100;  // as much as a crease of ten times the expected bend
+
+struct Folds {
+  Folds(std::pmr::memory_resource* memory, int width, int height)
+      : xx(memory, width, height), yy(memory, width, height) {}
+  Plane<std::uint8_t> xx, yy;
+};
+
 // Writes bend_xx, bend_yy and bend_xy, and to `wrinkled` the last term above. `across` is scratch.
 void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain,
-                   const BendingExpectation& expected, ThreadPool& pool, Plane<float>& across,
-                   Plane<float>& wrinkled, BendingSystem& system);
+                   const BendingExpectation& expected, const Folds& folds, ThreadPool& pool,
+                   Plane<float>& across, Plane<float>& wrinkled, BendingSystem& system);
 
 // ColumnSpan: columns of a row from `begin` up to `end`; none where they are equal.
 struct ColumnSpan {

@@ -151,7 +151,8 @@ struct Work {
 };
 
 // Adds what every pixel says to the nodes around it.
-void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, Work& work, ThreadPool& pool) {
+void gather_data(const WarpTerms& terms, const SigmaTerms* for_sigma, int step, Work& work,
+                 ThreadPool& pool) {
   BendingSystem& system = work.system;
   pool.for_each(system.height(), kRefinedBands, [&](int j) {
     for (int i = 0; i < system.width(); ++i) {
@@ -167,7 +168,7 @@ void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, W
           const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
           a += wg * terms.gradient.row(y)[x];
           b += wg * terms.residual.row(y)[x];
-          if (agreed != nullptr) real += tent * terms.weight.row(y)[x] * agreed->row(y)[x];
+          if (for_sigma != nullptr) real += tent * terms.weight.row(y)[x] * for_sigma->agreed.row(y)[x];
         }
       system.data.row(j)[i] = a;
       work.pull.row(j)[i] = b;
@@ -196,15 +197,59 @@ float posterior_sigma(double seeming, double agreed, double bend) {
   return kShareAtANode * std::pow(std::max(reach, kLeastReach), kShareOfReach) * float(std::sqrt(variance));
 }
 
+}  // namespace
+
+void misread_px(const Plane<float>& in, ThreadPool& pool, std::pmr::memory_resource& scratch,
+                Plane<float>& ratio) {
+  constexpr int kRadius = 3;       // nodes
+  constexpr float kPxAShare = 15;  // of simulated people in full and half size
+  const PlaneShape shape{&scratch, ratio.width, ratio.height};
+  Plane<float> count(shape), squares(shape), across(shape);
+  double all = 0;
+  double known = 1e-6;
+  for (std::size_t k = 0; k < ratio.values.size(); ++k) {
+    all += in.values[k] != 0 ? double(ratio.values[k]) : 0.0;
+    known += double(in.values[k]);
+  }
+  // About the mean: what is squared is small then.
+  const auto mean = float(all / known);
+  for (std::size_t k = 0; k < ratio.values.size(); ++k) {
+    ratio.values[k] = in.values[k] != 0 ? ratio.values[k] - mean : 0.0F;
+    squares.values[k] = ratio.values[k] * ratio.values[k];
+  }
+  box_sum(in, kRadius, pool, across, count);
+  box_sum(squares, kRadius, pool, across, squares);
+  box_sum(ratio, kRadius, pool, across, ratio);
+  for (std::size_t k = 0; k < ratio.values.size(); ++k) {
+    const float n = 1 / std::max(count.values[k], 1.0F);
+    const float here = ratio.values[k] * n;
+    const float variance = std::max(squares.values[k] * n - here * here, 0.0F);
+    ratio.values[k] = kPxAShare * std::sqrt(variance) / std::max(mean + here, 0.1F);
+  }
+}
+
+namespace {
+
 // sigma and cost of every node.
-void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes, const Work& work,
-           std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
+void judge(const WarpTerms& terms, const SigmaTerms& for_sigma, int step, double lambda, const Window& nodes,
+           const Work& work, std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
   Plane<float> mean(&scratch, nodes.width, nodes.height);
   Plane<float> noise(&scratch, nodes.width, nodes.height);
   Plane<float> area(&scratch, nodes.width, nodes.height);
   Plane<float> across(&scratch, nodes.width, nodes.height);
   Plane<float> excess(&scratch, nodes.width, nodes.height);
   measure_score_excess(work.system, work.pull, work.agreed, step, pool, scratch, excess);
+  const auto pixel = [&](int x, int y) {
+    return std::size_t(std::min(y * step, terms.cost.height - 1)) * std::size_t(terms.cost.width) +
+           std::size_t(std::min(x * step, terms.cost.width - 1));
+  };
+  Plane<float> misread(&scratch, nodes.width, nodes.height);
+  for (int y = 0; y < nodes.height; ++y)
+    for (int x = 0; x < nodes.width; ++x) {
+      area.row(y)[x] = work.domain.row(y)[x] != 0 ? terms.mask.values[pixel(x, y)] : 0.0F;
+      misread.row(y)[x] = for_sigma.ratio.values[pixel(x, y)];
+    }
+  misread_px(area, pool, scratch, misread);
   constexpr int kRadius = 6;  // about the reach of one pixel's influence on skin
   constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
   box_sum(work.system.data, kRadius, pool, across, mean);
@@ -221,12 +266,12 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
       if (work.domain.row(y)[x] == 0) continue;
       const double seeming = std::max(double(mean.row(y)[x]) / kCells, 1e-6);
       const double real = seeming - double(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
-      const float xx = work.system.bend_xx.row(y)[x];
-      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
-          posterior_sigma(seeming, real, xx > 0 ? double(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
-      const int px = std::min(x * step, terms.cost.width - 1);
-      const int py = std::min(y * step, terms.cost.height - 1);
-      field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
+      // Of what bends differently along x and y the integral is that of the geometric mean.
+      const float bend = std::sqrt(work.system.bend_xx.row(y)[x] * work.system.bend_yy.row(y)[x]);
+      const float fit = posterior_sigma(seeming, real, bend > 0 ? double(bend) : lambda * 0.1) *
+                        std::sqrt(excess.row(y)[x]);
+      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] = std::hypot(fit, misread.row(y)[x]);
+      field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.values[pixel(x, y)];
     }
 }
 
@@ -248,6 +293,9 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   // Steps are cheap at the smallest size, and what starts far off needs them; in between it is done soonest.
   const int fewer = std::max(1, options.steps - 1);
   const int steps = scene.level == 0 ? options.steps : scene.level >= kFarLevel ? 2 * fewer : fewer;
+  Arena::Mark whole(context.scratch);
+  Folds folds(&context.scratch, nodes.width, nodes.height);
+  if (scene.level == 0) find_dark_lines(scene, nodes, step, context, folds);
   float hanging = 1;
   for (int k = 0; k < steps; ++k) {
     if (context.stop()) return stopped();
@@ -261,10 +309,10 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
       }
     WarpTerms terms(&context.scratch, extent.pixels.width, extent.pixels.height);
     const bool last = k == steps - 1;
-    Plane<float> agreed(&context.scratch, last ? extent.pixels.width : 0, last ? extent.pixels.height : 0);
-    form_terms(scene, options, field, extent.pixels, context, terms, last ? &agreed : nullptr);
-    gather_data(terms, last ? &agreed : nullptr, step, work, context.pool);
-    weigh_bending(work.d, work.domain, expected, context.pool, work.delta, work.wrinkled, work.system);
+    SigmaTerms for_sigma({&context.scratch, last ? extent.pixels.width : 0, last ? extent.pixels.height : 0});
+    form_terms(scene, options, field, extent.pixels, context, terms, last ? &for_sigma : nullptr);
+    gather_data(terms, last ? &for_sigma : nullptr, step, work, context.pool);
+    weigh_bending(work.d, work.domain, expected, folds, context.pool, work.delta, work.wrinkled, work.system);
     if (scene.level == 0 && k == kNoiseStep) hanging = hanging_noise(terms, context.pool);
     for (std::size_t n = 0; n < work.domain.values.size(); ++n) {
       const float share = work.domain.values[n] != 0 ? 1 / hanging : 0;
@@ -275,14 +323,17 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     for (std::size_t n = 0; n < work.pull.values.size(); ++n)
       work.system.rhs.values[n] =
           work.domain.values[n] != 0 ? -work.pull.values[n] - work.system.rhs.values[n] : 0.0F;
-    solve(work.system, options.solver_steps, kSolved, context.pool, context.scratch, work.delta);
+    {
+      Arena::Mark solving(context.scratch);
+      solve(work.system, options.solver_steps, kSolved, context.pool, context.scratch, work.delta);
+    }
     const float limit = 1.0F * float(1 << scene.level);  // the linear model holds for about a pixel
     for (int y = 1; y < nodes.height - 1; ++y)
       for (int x = 1; x < nodes.width - 1; ++x)
         if (work.domain.row(y)[x] != 0)
           field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] +=
               std::clamp(work.delta.row(y)[x], -limit, limit);
-    if (last) judge(terms, step, lambda, nodes, work, context.scratch, context.pool, field);
+    if (last) judge(terms, for_sigma, step, lambda, nodes, work, context.scratch, context.pool, field);
   }
   return {};
 }

@@ -13,8 +13,9 @@
 // surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
 // sharply (iteratively reweighted, bending_system.h), so that eyelids and nostrils keep their creases, lips
 // their wrinkles. sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed
-// form of the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds.
-// Memory: scratch only. Results do not depend on the number of threads.
+// form of the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds,
+// and what uneven light does (misread_px). Memory: scratch only. Results do not depend on the number of
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +43,15 @@ inline constexpr float kLeastReal = 0.06F;
 void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
                           int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
                           Plane<float>& excess);
+
+// Skin that shines, lips most of all, is not lit alike for both cameras. Where the ratio of their grey values
+// is even, offset and gain take it out; where it changes from one place to the next, it is taken for detail
+// that has moved, and all pixels around are misled one way: no residual shows that. By how much: the scatter
+// of the ratio as a share of it, over 7 x 7 nodes, times what a pixel of disparity changes of skin's grey
+// values, the 15th part. `ratio` and `in`, 1 where it is known, are planes of nodes; the result goes to
+// `ratio`, pixels. `scratch`: three such planes.
+void misread_px(const Plane<float>& in, ThreadPool& pool, std::pmr::memory_resource& scratch,
+                Plane<float>& ratio);
 
 // The data terms: the right view warped onto the left by a disparity field, and what every pixel then says
 // about the field.
@@ -89,10 +99,25 @@ struct RefinerScene {
 Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,
                             StageContext& context, SurfaceField& field);
 
-// `agreed`, where wanted: the product of both views' own derivatives by the disparity, means taken out. Its
-// mean is that of the squared gradient without noise, for the noise of the views is independent.
+// What sigma needs besides, per pixel.
+struct SigmaTerms {
+  explicit SigmaTerms(const PlaneShape& shape) : agreed(shape), ratio(shape) {}
+  // The product of both views' own derivatives by the disparity, means taken out. Its mean is that of the
+  // squared gradient without noise, for the noise of the views is independent.
+  Plane<float> agreed;
+  Plane<float> ratio;  // of the right view's mean grey to the left one's, over the window for offset and gain
+};
+
+// `for_sigma` where it is wanted.
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
-                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed);
+                const Window& window, StageContext& context, WarpTerms& terms, SigmaTerms* for_sigma);
+
+// Where the left view shows dark lines, 17 nodes of them and hardly wider than six: between closed lips,
+// under a lid, along a wrinkle. Skin folds there, or may: the prior lets it, the views say whether it does.
+// The window's nodes are `step` pixels apart. Memory: scratch only. Results do not depend on the number of
+// threads.
+void find_dark_lines(const RefinerScene& scene, const Window& nodes, int step, StageContext& context,
+                     Folds& folds);
 
 // Looks for the surface once more by its fine detail. A highlight lies at another depth than the skin it
 // shines on, and on dark or even skin it is all that a small picture shows: the coarse matching follows it,

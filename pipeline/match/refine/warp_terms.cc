@@ -92,9 +92,10 @@ struct Moments {
   const float *count, *left, *right, *left_left, *right_right, *left_right;
 };
 
-// May be the rows that are read: `right` becomes the residual, its slope the gradient, a moment the cost.
+// May be the rows that are read: `right` becomes the residual, its slope the gradient, moments cost and
+// ratio.
 struct RowTerms {
-  float *residual, *gradient, *cost, *agreed;
+  float *residual, *gradient, *cost, *agreed, *ratio;
 };
 
 struct RowViews {
@@ -120,6 +121,7 @@ RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, i
     const float root = std::sqrt(local);
     const float inverse = 1.0F / root;
     const float left_slope = 0.5F * (s.left[x + 1] - s.left[x - 1]);
+    out.ratio[x] = mean_right / std::max(mean_left, 1.0F);
     out.residual[x] = s.mask[x] * ((s.right[x] - mean_right) * inverse - (s.left[x] - mean_left) * root);
     const float right_slope = s.right_slope[x];
     out.gradient[x] = s.mask[x] * -0.5F * level_scale * (right_slope * inverse + left_slope * root);
@@ -194,16 +196,17 @@ float gain_of(const WindowSums& sums, const Plane<float>& mask) {
 }
 
 void form_residuals(const RefinerScene& scene, const Window& window, WindowSums& sums, ThreadPool& pool,
-                    WarpTerms& terms, Plane<float>* agreed) {
+                    WarpTerms& terms, SigmaTerms* for_sigma) {
   const int w = window.width;
   const float gain = gain_of(sums, terms.mask);
   const float level_scale = 1.0F / float(1 << scene.level);
   pool.for_each(window.height, kBands, [&](int y) {
     const Moments m{sums.count.row(y),     sums.left.row(y),        sums.right.row(y),
                     sums.left_left.row(y), sums.right_right.row(y), sums.left_right.row(y)};
-    // Where nobody asks for it the product goes to a row that has had its day.
+    // Where nobody asks for them product and ratio go to rows that have had their day.
     const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y),
-                       agreed != nullptr ? agreed->row(y) : sums.right_right.row(y)};
+                       for_sigma != nullptr ? for_sigma->agreed.row(y) : sums.right_right.row(y),
+                       for_sigma != nullptr ? for_sigma->ratio.row(y) : sums.right.row(y)};
     const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, terms.residual.row(y),
                          terms.gradient.row(y)};
     // A pixel on the picture's own edge has no slope, and the mask is 0 there.
@@ -238,11 +241,12 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
 }  // namespace
 
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
-                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed) {
+                const Window& window, StageContext& context, WarpTerms& terms, SigmaTerms* for_sigma) {
+  Arena::Mark mark(context.scratch);
   const int radius = std::max(kSmallestWindowPx, options.local_window_px >> scene.level) / 2;
   WindowSums sums{{&context.scratch, terms.shape.width, terms.shape.height}, terms};
   sum_windows(scene, field, window, radius, context.pool, terms, sums);
-  form_residuals(scene, window, sums, context.pool, terms, agreed);
+  form_residuals(scene, window, sums, context.pool, terms, for_sigma);
   // The offset soaks up what a slope of shading says: so must the gradient's own mean.
   Plane<float>& gradient = sums.left;
   box_sum(terms.gradient, radius, context.pool, sums.across, gradient);
@@ -250,7 +254,7 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
     for (int x = 0; x < terms.mask.width; ++x) {
       const float mean = terms.mask.row(y)[x] * gradient.row(y)[x] / std::max(sums.count.row(y)[x], 1.0F);
       terms.gradient.row(y)[x] -= mean;
-      if (agreed != nullptr) agreed->row(y)[x] -= mean * mean;
+      if (for_sigma != nullptr) for_sigma->agreed.row(y)[x] -= mean * mean;
     }
   });
   weigh(context.pool, terms, sums);

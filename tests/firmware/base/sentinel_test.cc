@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/base/process_memory.h"
+#include "firmware/base/sentinel.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "firmware/base/process_memory.h"
+#include "firmware/base/sentinel.h"
 #include "firmware/kiosk/kiosk.h"
 #include "tests/firmware/faults/fault_hands.h"
 #include "tests/support/gles_driver.h"

@@ -265,7 +265,7 @@ TEST_F(NarratorTest, SpeaksTheLanguageOfThePage) {
   EXPECT_EQ(narrator.follow(tree, moment, to).language, "de");
 }
 
-// Of more statuses than it follows, too, no words stay behind.
+// No words stay behind, of many statuses neither.
 TEST_F(NarratorTest, KeepsNoTexts) {
   tree.begin(false);
   tree.open(node(Role::Group, "screen", {}));

@@ -23,15 +23,17 @@ struct Weighed {
   Plane<std::uint8_t> domain{&fixture.output, kSize, kSize};
   Plane<float> across{&fixture.output, kSize, kSize}, wrinkled{&fixture.output, kSize, kSize};
   BendingSystem system{&fixture.output, kSize, kSize};
+  Folds folds{&fixture.output, kSize, kSize};
 
   explicit Weighed(const std::function<float(int, int)>& surface,
-                   const BendingExpectation& expected = kExpected) {
+                   const BendingExpectation& expected = kExpected, int fold_row = -1) {
+    if (fold_row >= 0) std::fill_n(folds.yy.row(fold_row), kSize, std::uint8_t{255});
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         d.row(y)[x] = surface(x, y);
         domain.row(y)[x] = x > 0 && y > 0 && x < kSize - 1 && y < kSize - 1 ? 1 : 0;
       }
-    weigh_bending(d, domain, expected, fixture.pool, across, wrinkled, system);
+    weigh_bending(d, domain, expected, folds, fixture.pool, across, wrinkled, system);
   }
   float least(int from, int to) const {
     float least = system.bend_xx.row(kMiddle)[from];
@@ -82,11 +84,19 @@ TEST(BendingWeights, LittleWavesAllOverAreNoRelief) {
   for (const float value : scene.wrinkled.values) EXPECT_EQ(value, 0.0F);
 }
 
+TEST(BendingWeights, AFoldIsLetGoAcrossItsLineAndHeldAlongIt) {
+  const Weighed folded([](int, int) { return 0.0F; }, kExpected, kMiddle);
+  EXPECT_FLOAT_EQ(folded.system.bend_yy.row(kMiddle)[9], 100 / (1 + kFolded));
+  EXPECT_FLOAT_EQ(folded.system.bend_xx.row(kMiddle)[9], 100);
+  EXPECT_FLOAT_EQ(folded.system.bend_xy.row(kMiddle)[9], 200 / std::sqrt(1 + kFolded));
+  EXPECT_FLOAT_EQ(folded.system.bend_yy.row(kMiddle + 1)[9], 100);
+}
+
 TEST(BendingWeights, OutsideTheDomainNothingIsHeld) {
   Weighed scene([](int x, int y) { return static_cast<float>((x * 7 + y * 3) % 5); });
   scene.domain.row(kMiddle)[kMiddle] = 0;
-  weigh_bending(scene.d, scene.domain, kExpected, scene.fixture.pool, scene.across, scene.wrinkled,
-                scene.system);
+  weigh_bending(scene.d, scene.domain, kExpected, scene.folds, scene.fixture.pool, scene.across,
+                scene.wrinkled, scene.system);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle], 0);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle - 1], 0);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle + 1], 0);
