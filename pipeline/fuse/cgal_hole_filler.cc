@@ -229,17 +229,19 @@ class Filler {
 
 }  // namespace
 
-std::vector<std::uint32_t> close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
-                                       std::span<const BorderEdge> border, const HoleLimits& limits,
-                                       std::pmr::vector<Triangle>& triangles) {
+ClosedHoles close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
+                        std::span<const BorderEdge> border, const HoleLimits& limits,
+                        std::pmr::vector<Triangle>& triangles) {
   const std::vector<Loop> loops = loops_of(vertices_mm, border);
   const auto longest = std::max_element(
       loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.length_mm < b.length_mm; });
   Filler filler(vertices_mm, normals, border, triangles);
+  std::vector<std::uint32_t> left_open;
   for (auto loop = loops.begin(); loop != loops.end(); ++loop)
-    if (loop != longest && loop->length_mm <= limits.rim_mm) filler.close(loop->vertices);
+    if (loop != longest && loop->length_mm <= limits.rim_mm && !filler.close(loop->vertices))
+      left_open.insert(left_open.end(), loop->vertices.begin(), loop->vertices.end());
   if (longest != loops.end()) filler.close_bays(*longest, limits);
-  return std::move(filler).beside();
+  return {std::move(filler).beside(), std::move(left_open)};
 }
 
 }  // namespace relievo::pipeline

@@ -123,7 +123,7 @@ class Surface {
   // False if nothing is left.
   bool trim_rims(const OwnFace& own) {
     trim(kHoleOpenedMm, 0);
-    close(border_edges(triangles_, scratch_), false);
+    close_all(border_edges(triangles_, scratch_), false);
     // Once only the outline is left: tufts of hair, however sure, but no ears.
     for (std::size_t v = 0; v < sure_.size(); ++v) sure_[v] = sure_[v] && zones_.is_ear(vertices_mm_[v]);
     for (const float radius_mm : kOutlineOpenedMm) {
@@ -134,7 +134,7 @@ class Surface {
       for (const BorderEdge& e : border)
         if (e[0] < placed_) place(e[0], own);
       part_equals(vertices_mm_, started_, scratch_);
-      close(border, true);
+      close_all(border, true);
     }
     return true;
   }
@@ -226,19 +226,35 @@ class Surface {
     keep_one_surface(vertices_mm_, triangles_, {}, scratch_);
   }
 
-  // What closes a hole was not measured.
-  void close(std::span<const BorderEdge> border, bool bays) {
+  // Where a rim touches itself nothing closes it: what lies around it goes, too, and the next is rounder.
+  void close_all(std::span<const BorderEdge> border, bool bays) {
+    constexpr int kTimes = 4;
+    auto open = close(border, bays);
+    for (int time = 1; !open.empty() && time < kTimes; ++time) {
+      std::sort(open.begin(), open.end());
+      std::erase_if(triangles_, [&](const Triangle& t) {
+        return std::any_of(t.begin(), t.end(),
+                           [&](std::uint32_t v) { return std::ranges::binary_search(open, v); });
+      });
+      keep_one_surface(vertices_mm_, triangles_, {}, scratch_);
+      open = close(border_edges(triangles_, scratch_), false);
+    }
+  }
+
+  // What closes a hole was not measured. Returns the vertices of the rims that stay open.
+  std::vector<std::uint32_t> close(std::span<const BorderEdge> border, bool bays) {
     const auto mouth_mm = [&](const Vec3f& headland) {
       if (!bays) return 0.0F;
       return zones_.is_throat(headland) ? kThroatMouthMm : kBayMouthMm;
     };
-    for (const std::uint32_t v :
-         close_holes(vertices_mm_, normals_, border, {kHoleRimMm, mouth_mm}, triangles_)) {
+    ClosedHoles closed = close_holes(vertices_mm_, normals_, border, {kHoleRimMm, mouth_mm}, triangles_);
+    for (const std::uint32_t v : closed.beside) {
       normals_.push_back(normals_[v]);
       vertices_.push_back({kClosedSigmaMm, vertices_[v].pose, 0, 1});
       started_.push_back(vertices_mm_[started_.size()]);
       sure_.push_back(0);
     }
+    return std::move(closed.left_open);
   }
 
   void fair(std::span<const std::uint8_t> part, std::span<const std::uint8_t> stays) {

@@ -44,10 +44,14 @@ struct HoleLimits {
 // leaves both as the surface does: by the triangulation of least area (Barequet, Sharir 1995), refined to the
 // rim's own density (Liepa 2003; both CGAL). One whose closing would use an edge that is there already stays
 // open. `normals`: outwards, any length, one a vertex. New vertices and triangles stand at the end; every new
-// triangle has a new vertex. Returns for each new vertex one of the rim that it closes.
-std::vector<std::uint32_t> close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
-                                       std::span<const BorderEdge> border, const HoleLimits& limits,
-                                       std::pmr::vector<Triangle>& triangles);
+// triangle has a new vertex.
+struct ClosedHoles {
+  std::vector<std::uint32_t> beside;     // for each new vertex one of the rim that it closes
+  std::vector<std::uint32_t> left_open;  // the rims of holes that could not be closed
+};
+ClosedHoles close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
+                        std::span<const BorderEdge> border, const HoleLimits& limits,
+                        std::pmr::vector<Triangle>& triangles);
 
 // One a vertex, as long as twice the area of the triangles around it.
 std::pmr::vector<Vec3f> area_normals(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,

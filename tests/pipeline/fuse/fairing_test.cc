@@ -144,8 +144,8 @@ TEST(Fairing, LetsWhatClosesAHoleGoOnAsTheSurfaceDoes) {
   normals.push_back({0, 0, 1});
   const std::size_t before = vertices.size();
   const auto border = border_edges(triangles, std::pmr::get_default_resource());
-  ASSERT_FALSE(
-      close_holes(vertices, normals, border, {100, [](const Vec3f&) { return 0.0F; }}, triangles).empty());
+  ASSERT_FALSE(close_holes(vertices, normals, border, {100, [](const Vec3f&) { return 0.0F; }}, triangles)
+                   .beside.empty());
   const auto furthest = [&] {
     float most = 0;
     for (std::size_t v = before; v < vertices.size(); ++v)

@@ -58,7 +58,8 @@ TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
   const std::size_t before = mesh.triangles.size(), vertices = mesh.vertices_mm.size();
-  const auto beside = close_holes(mesh.vertices_mm, outwards(mesh), border, {15, mouths(0)}, mesh.triangles);
+  const auto beside =
+      close_holes(mesh.vertices_mm, outwards(mesh), border, {15, mouths(0)}, mesh.triangles).beside;
   EXPECT_EQ(mesh.vertices_mm.size(), vertices + beside.size());
   EXPECT_GE(mesh.triangles.size(), before + 12U) << "about as dense as the sheet";
   EXPECT_LE(mesh.triangles.size(), before + 24U);
