@@ -257,10 +257,11 @@ void Appliance::stop_head() {
   head_job_ = 0;
 }
 
-// For another try what the one before made goes. False when no session opens; the machine has then moved on.
+// For another try what the one before made goes; who is photographed still sees themselves. False when no
+// session opens; the machine has then moved on.
 bool Appliance::open_session(const Transition& change) {
   if (change.from != State::Idle) {
-    session_.retake();
+    session_.retake(change.from == State::Position && change.to == State::Capture);
     return true;
   }
   attempt_ = 0;

@@ -61,6 +61,7 @@ Result<void> run_on(ui::Display& display, Kiosk& kiosk, Sentinel& sentinel, Scri
     }
     kiosk.ui().resize(display.width_px(), display.height_px());
     kiosk.turn();
+    sentinel.kick();  // a first frame may take long to draw
     if (scripted != nullptr) scripted->figures.made();
     RELIEVO_TRY_ASSIGN(const bool drawn, glass.draw(kiosk, begin, picture.has_value()));
     if (picture)

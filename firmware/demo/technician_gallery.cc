@@ -142,6 +142,7 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
   for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
     c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right, 900030 + std::uint32_t(i)};
   c.views = 11;
+  c.enough = true;
   c.bars = {0.82F, 0.64F, 1, 0.37F};
   for (std::size_t i = 0; i < 64; ++i)
     c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : std::uint32_t(i % 24) * 3;

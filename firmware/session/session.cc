@@ -127,9 +127,14 @@ Products& EnrolmentSession::products() const {
   return *products_;
 }
 
-void EnrolmentSession::retake() {
+void EnrolmentSession::retake(bool keep_mirror) {
   RELIEVO_ASSERT(is_open());
-  wipe();
+  if (keep_mirror) {
+    wipe_taken();
+    live_.forget_guidance();
+  } else {
+    wipe();
+  }
   make_products();
 }
 
@@ -167,10 +172,14 @@ void EnrolmentSession::close() {
 }
 
 void EnrolmentSession::wipe() {
+  wipe_taken();
+  live_.wipe();
+}
+
+void EnrolmentSession::wipe_taken() {
   wipe_products();
   holds_ = nullptr;
   slot_.wipe();
-  live_.wipe();
   spare_slot_.wipe();
   sides_.wipe();
 }
@@ -252,6 +261,17 @@ void LiveFeed::wipe() {
     slot.live = {};
   }
   fresh_ = false;
+}
+
+void LiveFeed::forget_guidance() {
+  const std::lock_guard lock(mutex_);
+  for (Slot& slot : slots_) {
+    ui::LiveView bare;
+    bare.picture = slot.live.picture;
+    bare.number = slot.live.number;
+    bare.ideal_width = slot.live.ideal_width;  // the oval stays as large
+    slot.live = bare;
+  }
 }
 
 }  // namespace relievo::firmware

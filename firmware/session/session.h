@@ -46,7 +46,8 @@ namespace relievo::firmware {
 
 // LiveFeed: the newest small picture of the person, from the capture thread to the screen. Three buffers: one
 // is being filled, one is the newest, one is on the screen; nobody waits.
-// Thread: fill() and publish() capture, newest() main; wipe() main, and only while no job runs.
+// Thread: fill() and publish() capture, newest() main; wipe() and forget_guidance() main, and only while no
+// job runs.
 
 class LiveFeed {
  public:
@@ -62,6 +63,8 @@ class LiveFeed {
   // Its picture is valid until the next newest(). Number 0: none since the last wipe.
   ui::LiveView newest();
   void wipe();
+  // The newest picture stays; what was said of it goes.
+  void forget_guidance();
 
  private:
   struct Slot {
@@ -183,7 +186,8 @@ class EnrolmentSession {
 
   // A subject's name longer than kSubjectNameBytes is InvalidInput; an open session InvalidState.
   Result<void> open(std::string_view subject);
-  void retake();
+  // With `keep_mirror` the newest live picture stays on the screen until there is another.
+  void retake(bool keep_mirror = false);
   // The products of this stage and of those after it go, never the pictures: they can run once more. Also on
   // the worker.
   void rework(State from);
@@ -227,6 +231,7 @@ class EnrolmentSession {
  private:
   void make_products();
   void wipe_products();
+  void wipe_taken();
   void wipe();
 
   StereoSlot slot_;

@@ -10,6 +10,7 @@
 
 #include "firmware/calibrate/calibrate_command.h"
 #include "firmware/capture/live_judge.h"
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/gate/relief/live_relief.h"
 
 namespace relievo::firmware {
@@ -20,14 +21,16 @@ class GrabbedPairs final : public LivePairs {
  public:
   GrabbedPairs(StereoGrabber& grabber, StereoSlot& slot, hal::Device& device,
                const std::atomic<bool>& cancelled)
-      : grabber_(grabber), slot_(slot), device_(device), cancelled_(cancelled), first_(grabber.cameras()) {}
-  // Cameras that have been away are opened again.
+      : grabber_(grabber), slot_(slot), device_(device), cancelled_(cancelled) {}
+  // Cameras that are not open, or have been away, are opened.
   Result<std::optional<LivePair>> next(const pipeline::LiveState&) override {
     RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
-    if (grabber_.cameras() != first_)
+    pipeline::RigCameras cameras = grabber_.cameras();
+    if (first_ && cameras != *first_)
       return Error{Errc::NotCalibrated,
                    "these are not the cameras that the views before were taken with: begin again"};
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(slot_, cancelled_));
+    if (!first_) first_ = std::move(cameras);
     return std::optional<LivePair>({frame.left, frame.right, device_.clock().now().time_since_epoch()});
   }
 
@@ -36,7 +39,7 @@ class GrabbedPairs final : public LivePairs {
   StereoSlot& slot_;
   hal::Device& device_;
   const std::atomic<bool>& cancelled_;
-  const pipeline::RigCameras first_;
+  std::optional<pipeline::RigCameras> first_;  // those of the first pair
 };
 
 // Rgb8, rows without padding.
@@ -104,11 +107,10 @@ Result<void> CalibrateJob::calibrate(JobControl& control) {
   if (show_) {
     RELIEVO_TRY_ASSIGN(pairs, show_(order_.board));
   } else {
-    RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
     pairs = std::make_unique<GrabbedPairs>(grabber_, session_.slot(), device_, control.cancelled);
   }
-  const pipeline::RigCameras cameras = grabber_.cameras();
-  std::optional<Error> trouble;  // since the last pair
+  std::optional<pipeline::RigCameras> cameras;  // those of the first pair
+  std::optional<Error> trouble;                 // since the last pair
   hal::Instant since;
   while (!live.state().done() && !finish_.load(std::memory_order_relaxed)) {
     if (control.cancelled.load(std::memory_order_relaxed))
@@ -117,6 +119,7 @@ Result<void> CalibrateJob::calibrate(JobControl& control) {
     if (looked) {
       trouble.reset();
       if (!*looked) break;
+      if (!cameras) cameras = grabber_.cameras();
       continue;
     }
     if (looked.error().code == Errc::Cancelled) return looked.error();
@@ -130,7 +133,7 @@ Result<void> CalibrateJob::calibrate(JobControl& control) {
   auto made = live.finish();
   if (!made) return trouble.value_or(made.error());
   result_ = *std::move(made);
-  result_->calibration.cameras = cameras;
+  if (cameras) result_->calibration.cameras = *std::move(cameras);
   return {};
 }
 
@@ -142,10 +145,11 @@ Result<bool> CalibrateJob::look_at_next(LivePairs& pairs, pipeline::LiveCalibrat
   return true;
 }
 
-// One that is away may say anything when it is opened again.
+// One that is away may say anything when it is opened again; one that was away all the time is not found.
 bool CalibrateJob::may_pass(const Error& trouble) const {
-  return trouble.code == Errc::Timeout || trouble.code == Errc::Disconnected ||
-         trouble.code == Errc::IoFailed || grabber_.watch() != CameraWatch::Well;
+  return trouble.code == Errc::NotFound || trouble.code == Errc::Timeout ||
+         trouble.code == Errc::Disconnected || trouble.code == Errc::IoFailed ||
+         grabber_.watch() != CameraWatch::Well;
 }
 
 void CalibrateJob::tell(const Error& trouble) {
@@ -171,6 +175,7 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   now.advice = state.advice;
   now.end = state.end;
   now.views = state.views;
+  now.enough = state.views >= pipeline::kMinBoardPairs;
   now.disagreeing = state.disagreeing;
   now.bars = {float(state.bars.x), float(state.bars.y), float(state.bars.size), float(state.bars.skew)};
   for (std::size_t k = 0; k < 2; ++k) std::ranges::copy(state.maps[k], now.seen[k].begin());

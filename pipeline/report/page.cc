@@ -166,6 +166,9 @@ svg .measure { stroke: var(--ink); stroke-width: 1; } svg .ruler { stroke: var(-
   .key { margin-top: 4pt; } .key td, .key tbody th { padding-top: 2pt; padding-bottom: 2pt; } small { font-size: 7.5pt; }
   .key td.value { font-size: 11pt; padding-right: 20px; } .key .second { font-size: 9pt; } .key .aim { font-size: 9pt; }
   .views, .numbers, figcaption, .views .state p { font-size: 8.5pt; }
+  .scroll { overflow: visible; } .scroll table, .scroll table thead th { font-size: 7.5pt; }
+  .scroll table thead small, .scroll table td small { font-size: 6.5pt; }
+  .scroll table th, .scroll table td, .scroll table tbody th { padding-left: 4px; padding-right: 4px; }
   .views .links { display: none; } .views thead th { font-size: 8pt; padding-right: 8px; } .views td { padding-right: 8px; }
   .views thead th:nth-child(2) { width: 28%; } .views thead .value { width: 8.2%; }
   svg text { font-size: 15px; } svg .note { font-size: 14px; }

@@ -121,6 +121,27 @@ TEST_F(ApplianceTest, RetakeMakesANewModel) {
   EXPECT_EQ(stages.ran, "MaReMeTeAsMaReMeTeAs");
 }
 
+TEST_F(ApplianceTest, WhoIsPhotographedStillSeesThemselvesAndNobodyElseDoes) {
+  const auto seen = [this] { return view_of(appliance).live.number; };
+  ASSERT_TRUE(reach(State::Idle));
+  appliance.ask(ui::Intent::Pose);
+  ASSERT_EQ(appliance.state(), State::Position);
+  for (int turn = 0; turn < 60'000 && seen() == 0; ++turn) appliance.step(milliseconds(1));
+  ASSERT_GT(seen(), 0U);
+  appliance.ask(ui::Intent::Begin);
+  ASSERT_EQ(appliance.state(), State::Capture);
+  EXPECT_GT(seen(), 0U) << "until there is another picture";
+  ASSERT_TRUE(reach(State::Review));
+  appliance.ask(ui::Intent::Retake);
+  EXPECT_EQ(seen(), 0U) << "of another try";
+  appliance.ask(ui::Intent::Cancel);
+  ASSERT_TRUE(reach(State::Idle));
+  EXPECT_EQ(appliance.live().newest().number, 0U);
+  appliance.ask(ui::Intent::Begin);
+  EXPECT_TRUE(appliance.session().is_open());
+  EXPECT_EQ(seen(), 0U) << "of the next visitor";
+}
+
 TEST_F(ApplianceTest, ATechnicianComesAndGoes) {
   ASSERT_TRUE(reach(State::Idle));
   appliance.ask(ui::Intent::OpenStaff);

@@ -87,6 +87,38 @@ TEST_F(SessionTest, RetakeKeepsTheSubjectAndNothingElse) {
   EXPECT_TRUE(all_zero());
 }
 
+TEST_F(SessionTest, TheMirrorStaysForTheShotIfItIsAskedForAndGoesWithTheSession) {
+  const std::vector<std::byte> pixels(64 * 64 * 3, std::byte{0xAB});
+  const auto look = [&] {
+    session.live().fill({pixels.data(), 64, 64, 64 * 3, PixelFormat::Rgb8});
+    ui::LiveView guidance;
+    guidance.steady_s = 2;
+    session.live().publish(guidance);
+    return session.live().newest();
+  };
+  ASSERT_TRUE(session.open("Ada"));
+  live();
+  const ui::LiveView seen = look();
+  EXPECT_EQ(seen.steady_s, 2);
+  session.retake(true);
+  const ui::LiveView kept = session.live().newest();
+  EXPECT_EQ(kept.number, seen.number);
+  ASSERT_EQ(kept.picture.bytes, seen.picture.bytes);
+  EXPECT_EQ(*kept.picture.bytes, pixels[0]);
+  EXPECT_EQ(kept.steady_s, ui::LiveView().steady_s) << "nothing is said of it any more";
+  EXPECT_FALSE(session.products().frame);
+  session.retake();
+  EXPECT_TRUE(session.live().newest().picture.empty());
+  EXPECT_EQ(*seen.picture.bytes, std::byte{0});
+  const ui::LiveView last = look();
+  session.retake(true);
+  EXPECT_EQ(*last.picture.bytes, pixels[0]);
+  session.close();
+  EXPECT_TRUE(session.live().newest().picture.empty());
+  EXPECT_EQ(*last.picture.bytes, std::byte{0});
+  EXPECT_TRUE(all_zero());
+}
+
 TEST_F(SessionTest, DestructionWipesToo) {
   {
     EnrolmentSession other(memory);

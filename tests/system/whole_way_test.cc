@@ -77,7 +77,8 @@ class WholeWay : public RelievoProcess {
     }
     EXPECT_GT(pictures[0].size(), 10000U);
     EXPECT_NE(pictures[0], pictures[1]) << "two surfaces";
-    for (const char* words : {"ms to mesh", "grid, delaunay: disparities", " windows</small>"})
+    for (const char* words : {"ms to mesh", "grid, delaunay: disparities", " windows</small>",
+                              "class=\"kept\">\n<h3 class=\"topic\">Time and memory"})
       EXPECT_NE(html.find(words), std::string::npos) << words;
   }
 

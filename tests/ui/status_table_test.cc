@@ -9,6 +9,7 @@
 #include <functional>
 #include <set>
 
+#include "tests/support/made_screen.h"
 #include "ui/screens/staff_screens.h"
 
 namespace relievo::ui {
@@ -96,6 +97,32 @@ TEST(StatusTable, EachRuleFiresForItsOwnFactAndLeadsToWhereItIsMended) {
   }
   for (const StatusRule& rule : status_rules())
     EXPECT_EQ(fired.count(rule.id), 1U) << rule.id << " was never made to fire";
+}
+
+// Its rows would push the tiles away from a finger.
+TEST(StatusTable, WhatIsKnownBeforeTheDeviceIsLookedAtStandsThereAtOnceAndNothingMovesThen) {
+  World world;
+  world.status = {};
+  EXPECT_TRUE(world.found().empty()) << "nothing is known of the disk";
+  world.status.camera_away = true;
+  world.staff.role = StaffRole::Technician;
+  world.staff.status = &world.status;
+  world.view.screen = Screen::Staff;
+  const auto screen = test::make_screen();
+  screen->resize(1280, 800);
+  screen->service().show(StaffPage::Menu);
+  const auto top_of = [&](std::string_view id) {
+    screen->frame(world.view);
+    const Node* node = screen->tree().find(id);
+    return node == nullptr ? -1 : node->rect.y;
+  };
+  EXPECT_GE(top_of("status camera"), 0);
+  const float tile = top_of("open cameras");
+  ASSERT_GE(tile, 0);
+  world.status.looked = true;
+  world.status.free_mib = 10'000;
+  EXPECT_EQ(top_of("open cameras"), tile);
+  EXPECT_GE(top_of("status camera"), 0);
 }
 
 TEST(StatusTable, TheWorstComesFirst) {

@@ -5,6 +5,7 @@
 // tables (status_rules(), staff_pages()): what is new appears by its row.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "ui/screens/staff_screens.h"
@@ -120,16 +121,18 @@ void status(StaffFrame& page) {
   page.card(card, size::kRadius);
   card.id = "status";
   const auto in_card = page.tree.inside(card);
-  if (seen == nullptr || !seen->looked) {
-    page.status("status looking", page.tr("One moment, please"), Mood::Plain);
-  } else {
-    std::array<Finding, kMostFindings> room;
-    const std::span<const Finding> found = find_status(page.view, *seen, room);
-    if (found.empty()) page.status("status good", page.tr("In order"), Mood::Good);
+  std::array<Finding, kMostFindings> room;
+  const std::span<const Finding> found =
+      seen != nullptr ? find_status(page.view, *seen, room) : std::span<const Finding>();
+  if (!found.empty()) {
     for (const Finding& one : found) {
       if (&one != found.data()) page.rule();
       finding(page, one);
     }
+  } else if (seen != nullptr && seen->looked) {
+    page.status("status good", page.tr("In order"), Mood::Good);
+  } else {
+    page.status("status looking", page.tr("One moment, please"), Mood::Plain);
   }
 }
 
@@ -151,9 +154,13 @@ std::span<const StatusRule> status_rules() { return kRules; }
 std::span<const Finding> find_status(const ViewState& view, const StatusView& status,
                                      std::array<Finding, kMostFindings>& found) {
   std::size_t count = 0;
+  // What can be known before the device was looked at stands there at once: tiles that jumped down later
+  // would jump away from a finger.
+  StatusView known = status;
+  if (!known.looked) known.free_mib = std::numeric_limits<double>::infinity();
   for (const Mood mood : {Mood::Bad, Mood::Warn}) {
     for (const StatusRule& rule : kRules) {
-      if (rule.mood(view, status) == mood) found[count++] = {&rule, mood};
+      if (rule.mood(view, known) == mood) found[count++] = {&rule, mood};
     }
   }
   return {found.data(), count};

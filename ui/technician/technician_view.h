@@ -127,6 +127,7 @@ struct TechnicianCalibration {
   pipeline::LiveAdvice advice = pipeline::LiveAdvice::ShowBoard;
   pipeline::LiveEnd end = pipeline::LiveEnd::NotYet;
   int views = 0, disagreeing = 0;
+  bool enough = false;          // for a verdict
   std::array<float, 4> bars{};  // across, down, size, tilt: 0 to 1
   std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2>
       seen{};                       // corners in each part of the pictures, row by row

@@ -30,7 +30,7 @@ const std::string_view kStyle = R"css(
 image { image-rendering: auto; }
 @media screen and (max-width: 1060px) { .sets, .sets thead th { font-size: 12px; } .sets small, .sets thead small, .sets td small { font-size: 11px; } .sets td, .sets thead th, .sets tbody th { padding-right: 6px; } }
 @media screen and (max-width: 760px) { .three { grid-template-columns: minmax(0, 1fr); } }
-@media print { .sets { font-size: 8pt; } h3, .swatches { break-after: avoid; } .topic { margin: 14pt 0 4pt; } .set { margin-top: 9pt; } .three { gap: 4pt 8pt; } }
+@media print { .kept { break-inside: avoid; } h3, .swatches { break-after: avoid; } .topic { margin: 14pt 0 4pt; } .set { margin-top: 9pt; } .three { gap: 4pt 8pt; } }
 )css";
 
 std::vector<const Run*> runs_of(const Comparison& c, std::size_t pair) {

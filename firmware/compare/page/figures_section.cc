@@ -266,8 +266,9 @@ std::string costs(const Comparison& c, std::size_t pair) {
     out += cell(figure(double(run->arena_peak_bytes) / kMiB, 0)) +
            cell(run->heap_peak_bytes == 0 ? "–" : figure(double(run->heap_peak_bytes) / kMiB, 0)) + "</tr>\n";
   }
-  return "<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) + sections::table(titles, out, 2) +
-         "<p class=\"note\">Arenas: what the algorithms took of the memory planned for them. Heap: what the process "
+  return "<div class=\"kept\">\n<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) +
+         sections::table(titles, out, 2) +
+         "</div>\n<p class=\"note\">Arenas: what the algorithms took of the memory planned for them. Heap: what the process "
          "held besides at the worst moment, above what it held before.</p>\n";
 }
 

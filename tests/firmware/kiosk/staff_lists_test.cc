@@ -76,6 +76,18 @@ TEST_F(StaffListsTest, RecordsAreTurnedAndJumpedInAlsoWhereSomebodyWasSearchedFo
   tap("all");
   ASSERT_TRUE(shows_first("Anna 120"));
   EXPECT_EQ(records().place.pages, 3);
+  // Digits that nobody's name has are a code, or a part of one.
+  for (const bool code : {true, false}) {
+    tap("search");
+    for (int i = 0; i < 4; ++i) tap("key 4");
+    if (!code) tap("key x");
+    tap("done");
+    ASSERT_TRUE(until([this] { return records().rows.empty() && find("nobody") != nullptr; }));
+    EXPECT_EQ(says("No record has this code"), code);
+    EXPECT_EQ(says("There is nobody of that name"), !code);
+    tap("all");
+    ASSERT_TRUE(shows_first("Anna 120"));
+  }
 }
 
 TEST_F(StaffListsTest, RecordsAreFilteredByTheFirstLetterAndByTheTextAgreedTo) {

@@ -156,6 +156,7 @@ TEST_F(CalibrateJobTest, WhereNothingWasSeenTheReasonIsTold) {
 
 TEST(CalibrateJob, CamerasThatWereAwayComeBackAndOthersInTheirPlacesEndIt) {
   test::PlayedWorld world;
+  world.pulled = true;
   test::PlayedDevice device(world, kWidth, kHeight);
   device.left_camera.number = "L", device.right_camera.number = "R";
   const BootMemory memory;
@@ -179,6 +180,10 @@ TEST(CalibrateJob, CamerasThatWereAwayComeBackAndOthersInTheirPlacesEndIt) {
     return condition();
   };
   const auto troubled = [&] { return !job.newest().problem.empty(); };
+  // From the beginning, and later.
+  EXPECT_TRUE(until(troubled));
+  EXPECT_FALSE(over);
+  world.pulled = false;
   EXPECT_TRUE(until([&] { return !job.newest().pictures[0].pixels.empty(); }));
   world.pulled = true;
   EXPECT_TRUE(until(troubled));

@@ -5,12 +5,17 @@
 #include "tests/firmware/technician/technician_fixture.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "hal/sim/optics/rig.h"
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/firmware/busy_lane.h"
 
@@ -45,6 +50,12 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   EXPECT_EQ(rig().revision, newest + 1);
   EXPECT_EQ(rig().stages->calibration()->revision, newest + 1) << "visitors are measured with it";
   EXPECT_EQ(rig().store->active_calibration()->revision, newest + 1);
+  char error[24];
+  std::snprintf(error, sizeof error, "%.3f", double(rig().now().calibration.history[0].depth_error_mm));
+  EXPECT_TRUE(std::ranges::any_of(rig().screen->tree().nodes(), [&](const ui::Node& node) {
+    return node.text.find("in force") != std::string_view::npos &&
+           node.text.find(error) != std::string_view::npos;
+  })) << "its error stands beside it";
   // The one before it comes back by a touch.
   rig().tap("calibration 1");
   ASSERT_TRUE(rig().until([&] { return rig().revision == newest; }))
@@ -69,6 +80,27 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   EXPECT_EQ(rig().store->active_calibration()->right_from_left.translation_mm.x,
             rig().store->calibration(newest)->right_from_left.translation_mm.x);
   std::filesystem::remove_all(rig().stick() / "calibrations");
+}
+
+// They would be thrown away.
+TEST_F(TechnicianTest, FewerViewsThanAVerdictNeedsCannotBeDone) {
+  std::atomic<bool> looked{false};
+  rig().spoils = [&looked](const pipeline::LiveState& state) -> Result<bool> {
+    while (state.views == pipeline::kMinBoardPairs - 1 && !looked)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return false;
+  };
+  rig().open(StaffPage::Calibrate);
+  rig().tap("calibration begin");
+  EXPECT_TRUE(rig().until([] { return rig().now().calibration.views == pipeline::kMinBoardPairs - 1; }));
+  EXPECT_TRUE(rig().shows("calibration cancel"));
+  EXPECT_FALSE(rig().shows("calibration finish"));
+  looked = true;
+  EXPECT_TRUE(rig().until([] { return rig().now().calibration.views >= pipeline::kMinBoardPairs; }));
+  EXPECT_TRUE(rig().shows("calibration finish"));
+  rig().tap("calibration cancel");
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.running; }));
+  rig().spoils = {};
 }
 
 // Somebody has changed the cameras' mode: the views before are worth their verdict all the same.
@@ -171,6 +203,17 @@ TEST_F(TechnicianTest, WhoLeavesTheirCalibrationEndsItAndFindsItAgain) {
   rig().open(StaffPage::Compare);
   ASSERT_EQ(rig().now().put_aside, before + 1) << "the test capture has left its result";
   EXPECT_EQ(rig().now().compared[before].result.name, name);
+  // It is shown without a present one, and what is asked of a present one is not.
+  EXPECT_FALSE(rig().now().result.there);
+  const std::string row = std::to_string(before);
+  EXPECT_TRUE(rig().shows("kept picture " + row) && rig().shows("drop " + row));
+  EXPECT_TRUE(rig().shows("next stage") && rig().shows("list saved"));
+  EXPECT_FALSE(rig().shows("present picture") || rig().shows("keep") || rig().shows("show difference"));
+  while (rig().now().stage != TechnicianStage::Mesh) rig().tap("next stage");
+  rig().tap("kept picture " + row);
+  EXPECT_EQ(rig().screen->draw_list().faces[0].version, rig().now().compared[before].model_number);
+  EXPECT_FALSE(rig().shows("show difference"));
+  rig().tap("back");
 }
 
 // It would be lost: the page would not offer to store it.

@@ -24,7 +24,6 @@ class TechnicianTest : public testing::Test {
   // What a test has put aside is none of the next one's.
   void TearDown() override {
     if (rig().now().put_aside == 0) return;
-    if (!rig().now().result.there) capture();  // beside which they are shown
     rig().open(StaffPage::Compare);
     EXPECT_TRUE(rig().until([] {
       if (rig().shows("drop 0")) rig().tap("drop 0");

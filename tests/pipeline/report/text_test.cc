@@ -37,6 +37,15 @@ TEST(ReportText, WhatIsNoUtf8IsReplacedAndWhatFollowsStays) {
   EXPECT_EQ(report::escaped(std::string_view("\0x", 2)), unknown + "x");
 }
 
+// Paper cannot be scrolled: the last column would be lost.
+TEST(ReportText, WhatScrollsOnAScreenIsWholeOnPaper) {
+  const std::string page = report::page("", "", "");
+  const std::size_t screen = page.find(".scroll { overflow-x: auto; }"), print = page.find("@media print");
+  ASSERT_LT(screen, print);
+  ASSERT_NE(print, std::string::npos);
+  EXPECT_NE(page.find(".scroll { overflow: visible; }", print), std::string::npos);
+}
+
 TEST(ReportText, LinksHoldNothingButNames) {
   EXPECT_EQ(report::linked("corners_01.png"), "corners_01.png");
   EXPECT_EQ(report::linked("a b#?%\"/\xC3\xA4"), "a%20b%23%3F%25%22%2F%C3%A4");

@@ -68,6 +68,15 @@ ListFilters filters_of(StaffFrame& page, const RecordsView& seen, FilterNames& n
   return {names.data(), 1 + seen.filters.size()};
 }
 
+// What nobody was found for: digits are those of a code, or of a part of one.
+const char* nobody(const Words& tr, const RecordsView& seen) {
+  if (seen.searched.empty() && seen.place.filter == 0) return tr("There is none yet");
+  const bool code = seen.searched.find_first_of("0123456789") != std::string_view::npos &&
+                    seen.searched.find_first_not_of("0123456789 -") == std::string_view::npos;
+  return code ? tr("No record has this code. Please check it, or ask the staff.")
+              : tr("There is nobody of that name.");
+}
+
 void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   const auto& tr = page.tr;
   said(page, seen);
@@ -80,10 +89,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   for (const RecordRow& row : seen.rows)
     page.row(page.id("record", std::size_t(row.number)), row.name, page.date(row.since), Mood::Plain,
              ShowRecord{row.number});
-  if (seen.rows.empty())
-    page.nothing("nobody", icon::kPerson,
-                 seen.searched.empty() && seen.place.filter == 0 ? tr("There is none yet")
-                                                                 : tr("There is nobody of that name."));
+  if (seen.rows.empty()) page.nothing("nobody", icon::kPerson, nobody(tr, seen));
   page.tree.close();
   // One filters, or searches; where there is nobody there is nothing to be chosen among.
   const bool filtered = seen.place.filter > 0;

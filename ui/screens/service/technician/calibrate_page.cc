@@ -109,8 +109,9 @@ void running(TechnicianFrame& f) {
   const float grow = f.open_buttons();
   f.small_button("calibration cancel", f.tr("Stop"), icon::kClose, ButtonLook::Quiet,
                  TechnicianAct::CancelCalibration, grow);
-  f.small_button("calibration finish", f.tr("Done"), icon::kCheck, ButtonLook::Main,
-                 TechnicianAct::StopCalibration, grow);
+  if (c.enough)
+    f.small_button("calibration finish", f.tr("Done"), icon::kCheck, ButtonLook::Main,
+                   TechnicianAct::StopCalibration, grow);
   f.tree.close();
 }
 
@@ -154,9 +155,9 @@ void history(TechnicianFrame& f) {
   for (std::size_t i = 0; i < c.history_count; ++i) {
     const TechnicianCalibrationRow& row = c.history[i];
     const std::string_view label = f.left_to_right({f.number(row.revision), "\u00a0· ", f.date(row.made_at)});
-    const std::string_view value = row.active               ? std::string_view(f.tr("in force"))
-                                   : row.depth_error_mm > 0 ? f.number(row.depth_error_mm, 3, "mm")
-                                                            : std::string_view("–");
+    const bool known = row.depth_error_mm > 0;
+    std::string_view value = known ? f.number(row.depth_error_mm, 3, "mm") : std::string_view("–");
+    if (row.active) value = known ? f.filled("{} · {}", {f.tr("in force"), value}) : f.tr("in force");
     f.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
           row.active ? Action{} : UseCalibration{i});
   }

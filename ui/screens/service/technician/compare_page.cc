@@ -40,11 +40,11 @@ void difference_button(TechnicianFrame& f, float grow) {
 }
 
 // One result by itself, to be turned and measured on.
-void alone(TechnicianFrame& f, std::size_t i) {
+void alone(TechnicianFrame& f, std::size_t i, bool there) {
   f.face(1, nullptr, 0);
   if (f.seen.differences && f.seen.compared[i].difference.known) difference_scale(f);
   const float grow = f.open_buttons();
-  if (i < f.seen.put_aside) difference_button(f, grow);
+  if (there && i < f.seen.put_aside) difference_button(f, grow);
   f.measure_button(grow);
   f.tree.close();
 }
@@ -78,7 +78,8 @@ constexpr FigureRow kMeasures[] = {
 
 class Columns {
  public:
-  explicit Columns(TechnicianFrame& frame) : f(frame), count(std::min(frame.seen.put_aside + 1, kCompared)) {}
+  Columns(TechnicianFrame& frame, bool there)
+      : f(frame), there_(there), count(std::min(frame.seen.put_aside + (there ? 1 : 0), kCompared)) {}
 
   void pictures() {
     const auto in_box = f.tree.inside(f.grown(f.box(Flow::Row, space::kXs), labels_above() ? 0.65F : 1.0F));
@@ -107,6 +108,7 @@ class Columns {
 
  private:
   TechnicianFrame& f;
+  const bool there_;  // the present one
   const std::size_t count;
 
   bool is_now(std::size_t i) const { return i == f.seen.put_aside; }
@@ -120,7 +122,7 @@ class Columns {
   void beside_pictures() {
     const auto in_words = f.tree.inside(f.grown(f.box(Flow::Column, space::kS), label_share()));
     f.write(title_of(f.tr, f.seen.stage), type::kSmall, Weight::Bold, f.palette.ink);
-    f.note(how(), 18);
+    if (there_) f.note(how(), 18);
   }
   const char* how() const {
     if (count == kCompared) return f.tr("Four stand side by side: drop one to put another beside them.");
@@ -201,7 +203,7 @@ class Columns {
 
   // Against the present one, and what the colours say.
   void differences() {
-    if (!f.seen.differences) return;
+    if (!there_ || !f.seen.differences) return;
     const auto each = [&](std::string_view id, const char* label, float TechnicianDifference::*mm) {
       row(id, label, [&](const TechnicianCompared& one) {
         return one.difference.known ? f.number(one.difference.*mm, 2, "mm") : std::string_view("–");
@@ -270,19 +272,19 @@ class Columns {
   }
 };
 
-void buttons(TechnicianFrame& f, bool there) {
+void buttons(TechnicianFrame& f, bool there, bool any) {
   if (f.busy()) return;
   const float grow = f.open_buttons();
-  const bool room = f.seen.put_aside + 1 < kCompared;
-  if (there) {
+  const bool room = !there || f.seen.put_aside + 1 < kCompared;
+  if (any) {
     const auto next = static_cast<TechnicianStage>((std::size_t(f.seen.stage) + 1) % kTechnicianStages);
     f.small_button("next stage", title_of(f.tr, f.seen.stage), icon::kAgain, ButtonLook::Quiet,
                    ShowStage{next}, grow);
-    if (f.seen.put_aside > 0) {
+    if (there && f.seen.put_aside > 0) {
       difference_button(f, grow);
       if (f.portrait) f.tree.close(), f.open_buttons();  // two and two
     }
-    if (room)
+    if (there && room)
       f.small_button("keep", f.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
                      TechnicianAct::KeepResult, grow);
   }
@@ -296,17 +298,20 @@ void buttons(TechnicianFrame& f, bool there) {
 
 void technician_compare_page(TechnicianFrame& f) {
   if (f.seen.saved.listed) return f.saved_list(true);
-  const bool there = f.capture_state();
+  // Those put aside are shown also where there is no present one.
+  const bool kept_alone = f.seen.calibrated && !f.busy() && !f.seen.result.there && f.seen.put_aside > 0;
+  if (kept_alone) f.problem(f.seen.problem);
+  const bool there = !kept_alone && f.capture_state();
+  const std::size_t count = kept_alone ? f.seen.put_aside : there ? f.seen.put_aside + 1 : 0;
   const auto one = std::size_t(std::max(0, f.service.mode));
-  if (there && one > 0 && one <= f.seen.put_aside + 1 && f.seen.compared[one - 1].model != nullptr)
-    return alone(f, one - 1);
-  if (there) {
-    Columns columns(f);
+  if (one > 0 && one <= count && f.seen.compared[one - 1].model != nullptr) return alone(f, one - 1, there);
+  if (count > 0) {
+    Columns columns(f, there);
     columns.pictures();
     columns.table();
   }
   f.stick_state();
-  buttons(f, there);
+  buttons(f, there, count > 0);
   f.capture_buttons(true);
 }
 
