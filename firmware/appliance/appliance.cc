@@ -341,6 +341,8 @@ void Appliance::entered(const Transition& change) {
       job_ = head_job_;
       break;
     case State::Match:
+      if (change.from == State::Capture) session_.live().wipe();  // no page shows the mirror any more
+      [[fallthrough]];
     case State::Reconstruct:
     case State::Mesh:
     case State::Texture:

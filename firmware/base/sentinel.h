@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sentinel: ends a program that hangs. The main loop kicks it every turn, and whoever waits for a thread that
-// does not end does not kick: so a frozen main loop and any frozen thread somebody needs are noticed alike.
+// Sentinel: ends a program that hangs. The main loop kicks it before the work and before the drawing of every
+// turn, and whoever waits for a thread that does not end does not kick: so a frozen main loop and any frozen
+// thread somebody needs are noticed alike.
 // What supervises the program (systemd with Restart=always) then starts it anew; nothing of a visitor
 // outlives the process. A hardware watchdog stands behind it, for a machine that hangs as a whole.
 //

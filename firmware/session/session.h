@@ -6,7 +6,8 @@
 //
 //   closed --open(subject)--> open --close()--> closed: every byte that was used is zero
 //                             |   ^
-//                             +---+ retake(): pictures and products go, the subject stays
+//                             +---+ retake(): pictures and products go, the subject stays, and the live
+//                                   picture if told so
 //                                   rework(): only products go, of some stages or all
 //
 // Thread: main opens and closes, and only while no job runs; a running job has the products.

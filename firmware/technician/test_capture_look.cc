@@ -46,7 +46,7 @@ const ui::TechnicianView& TestCapture::view() {
   if (made->registration) look_at_poses(*made->registration);
   view_.compared[view_.put_aside] = {
       view_.result, run_.pictures().picture(told_.stage, 0), view_.model, model_number_, {}};
-  if (!told_.differences || !kept_.is_compared_with(model_number_)) return view_;
+  if (!view_.result.there || !told_.differences || !kept_.is_compared_with(model_number_)) return view_;
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i].difference = kept_.difference(i);
   view_.full_colour_mm = kept_.full_colour_mm();
   view_.scale = difference_scale();

@@ -136,7 +136,7 @@ class Surface {
       part_equals(vertices_mm_, started_, scratch_);
       close_all(border, true);
     }
-    return true;
+    return !triangles_.empty();
   }
 
   // First what closes a hole, with the last of what was measured beside it; steps, but for those that eyes
@@ -226,7 +226,8 @@ class Surface {
     keep_one_surface(vertices_mm_, triangles_, {}, scratch_);
   }
 
-  // Where a rim touches itself nothing closes it: what lies around it goes, too, and the next is rounder.
+  // Where an edge joins two vertices of a rim, nothing closes it: what lies around it goes, too, and the next
+  // rim is rounder.
   void close_all(std::span<const BorderEdge> border, bool bays) {
     constexpr int kTimes = 4;
     auto open = close(border, bays);
@@ -236,7 +237,10 @@ class Surface {
         return std::any_of(t.begin(), t.end(),
                            [&](std::uint32_t v) { return std::ranges::binary_search(open, v); });
       });
-      keep_one_surface(vertices_mm_, triangles_, {}, scratch_);
+      {
+        const Arena::Mark mark(context_.scratch);
+        keep_one_surface(vertices_mm_, triangles_, {}, scratch_);
+      }
       open = close(border_edges(triangles_, scratch_), false);
     }
   }

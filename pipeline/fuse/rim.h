@@ -40,15 +40,16 @@ struct HoleLimits {
   std::function<float(const Vec3f&)> mouth_mm;  // of a bay of the longest rim, by its headlands, at most
 };
 
+struct ClosedHoles {
+  std::vector<std::uint32_t> beside;     // for each new vertex one of the rim that it closes
+  std::vector<std::uint32_t> left_open;  // vertices of rims short enough that could not be closed
+};
+
 // Closes every hole but the longest rim, and that one's bays from headland to headland, along a curve that
 // leaves both as the surface does: by the triangulation of least area (Barequet, Sharir 1995), refined to the
 // rim's own density (Liepa 2003; both CGAL). One whose closing would use an edge that is there already stays
 // open. `normals`: outwards, any length, one a vertex. New vertices and triangles stand at the end; every new
 // triangle has a new vertex.
-struct ClosedHoles {
-  std::vector<std::uint32_t> beside;     // for each new vertex one of the rim that it closes
-  std::vector<std::uint32_t> left_open;  // the rims of holes that could not be closed
-};
 ClosedHoles close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
                         std::span<const BorderEdge> border, const HoleLimits& limits,
                         std::pmr::vector<Triangle>& triangles);

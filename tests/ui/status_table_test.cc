@@ -100,7 +100,7 @@ TEST(StatusTable, EachRuleFiresForItsOwnFactAndLeadsToWhereItIsMended) {
 }
 
 // Its rows would push the tiles away from a finger.
-TEST(StatusTable, WhatIsKnownBeforeTheDeviceIsLookedAtStandsThereAtOnceAndNothingMovesThen) {
+TEST(StatusTable, WhatIsKnownBeforeTheDeviceIsLookedAtStandsThereAtOnce) {
   World world;
   world.status = {};
   EXPECT_TRUE(world.found().empty()) << "nothing is known of the disk";

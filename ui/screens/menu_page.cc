@@ -154,8 +154,8 @@ std::span<const StatusRule> status_rules() { return kRules; }
 std::span<const Finding> find_status(const ViewState& view, const StatusView& status,
                                      std::array<Finding, kMostFindings>& found) {
   std::size_t count = 0;
-  // What can be known before the device was looked at stands there at once: tiles that jumped down later
-  // would jump away from a finger.
+  // What is known before the device was looked at stands there at once: its rows do not push the tiles down
+  // later, away from a finger.
   StatusView known = status;
   if (!known.looked) known.free_mib = std::numeric_limits<double>::infinity();
   for (const Mood mood : {Mood::Bad, Mood::Warn}) {

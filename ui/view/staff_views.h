@@ -75,7 +75,7 @@ struct RecordsView {
 
 // --- status: what needs a hand, as the appliance knows it; the rest stands in ViewState -------------
 struct StatusView {
-  bool looked = false;  // at what follows
+  bool looked = false;  // at free_mib, hottest_c and calibration_days
   bool camera_away = false;
   std::uint64_t pairs = 0, missed = 0;  // since the start: handed over; late, lost, damaged or not there
   double free_mib = 0;                  // of the store's disk

@@ -63,8 +63,9 @@ struct BendingExpectation {
 
 // Where the surface may fold: 0 nowhere, 255 surely. The folds' lines lead along y in `xx`, along x in `yy`.
 // There 1 + ... becomes kFolded more for the second differences that cross the line, and those along it stay
-// held: a groove that is hardly wider than the lattice's nodes is known from its whole length, and so bends
-// where the prior for skin, alike in all directions, would smooth it away.
+// held; the mixed one has the geometric mean of both. A groove that is hardly wider than the lattice's nodes
+// is known from its whole length, and so bends where the prior for skin, alike in all directions, would
+// smooth it away.
 inline constexpr float kFolded = 100;  // as much as a crease of ten times the expected bend
 
 struct Folds {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kLineBands = 16;
 constexpr int kAside = 3;                      // nodes from a line to what lies beside it
-constexpr int kAlong = 8;                      // nodes: a line is seen over twice that and one
+constexpr int kAlong = 8;                      // nodes: a line is seen over twice that
 constexpr int kPart = 4;                       // nodes
 constexpr int kBesides = 2;                    // nodes: how far beside its line a groove bends
 constexpr float kNone = 0.12F, kSure = 0.24F;  // darker than its sides by this share of their grey level

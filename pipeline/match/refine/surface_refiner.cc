@@ -21,6 +21,10 @@ float left_by_the_fit(float reach) { return 1 / (1 + std::pow(3.05F * reach, 1.9
 
 constexpr float kLeastExcess = 0.5F;  // calmer by more is chance. Cut off at 1, the mean would be too large.
 
+// Of what bends differently along x and y the integral is that of the geometric mean. At a rim one is
+// missing.
+float bend_of(float xx, float yy) { return xx > 0 && yy > 0 ? std::sqrt(xx * yy) : xx; }
+
 }  // namespace
 
 void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
@@ -36,7 +40,9 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
   box_sum(told, kMeanRadius, pool, across, told);
   box_sum(real, kBlockRadius, pool, across, answers);
   box_sum(answers, kMeanRadius, pool, across, answers);
-  box_sum(system.bend_xx, kMeanRadius, pool, across, bend);
+  for (std::size_t k = 0; k < bend.values.size(); ++k)
+    bend.values[k] = bend_of(system.bend_xx.values[k], system.bend_yy.values[k]);
+  box_sum(bend, kMeanRadius, pool, across, bend);
   constexpr float kCells = kBlock * kBlock;
   // Tents overlap by half: a block of them counts the pixels along its edges in part.
   const float along = step == 1 ? 1.0F : (2.0F * kBlock - 0.5F) / (2.0F * kBlock), share = along * along;
@@ -266,8 +272,7 @@ void judge(const WarpTerms& terms, const SigmaTerms& for_sigma, int step, double
       if (work.domain.row(y)[x] == 0) continue;
       const double seeming = std::max(double(mean.row(y)[x]) / kCells, 1e-6);
       const double real = seeming - double(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
-      // Of what bends differently along x and y the integral is that of the geometric mean.
-      const float bend = std::sqrt(work.system.bend_xx.row(y)[x] * work.system.bend_yy.row(y)[x]);
+      const float bend = bend_of(work.system.bend_xx.row(y)[x], work.system.bend_yy.row(y)[x]);
       const float fit = posterior_sigma(seeming, real, bend > 0 ? double(bend) : lambda * 0.1) *
                         std::sqrt(excess.row(y)[x]);
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] = std::hypot(fit, misread.row(y)[x]);

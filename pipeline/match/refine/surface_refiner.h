@@ -47,9 +47,9 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
 // Skin that shines, lips most of all, is not lit alike for both cameras. Where the ratio of their grey values
 // is even, offset and gain take it out; where it changes from one place to the next, it is taken for detail
 // that has moved, and all pixels around are misled one way: no residual shows that. By how much: the scatter
-// of the ratio as a share of it, over 7 x 7 nodes, times what a pixel of disparity changes of skin's grey
-// values, the 15th part. `ratio` and `in`, 1 where it is known, are planes of nodes; the result goes to
-// `ratio`, pixels. `scratch`: three such planes.
+// of the ratio as a share of it, over 7 x 7 nodes, divided by the share by which skin's grey values change
+// from one pixel to the next: a 15th. `ratio` and `in`, 1 where it is known, are planes of nodes; the result
+// goes to `ratio`, pixels. `scratch`: three such planes.
 void misread_px(const Plane<float>& in, ThreadPool& pool, std::pmr::memory_resource& scratch,
                 Plane<float>& ratio);
 
@@ -112,7 +112,7 @@ struct SigmaTerms {
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
                 const Window& window, StageContext& context, WarpTerms& terms, SigmaTerms* for_sigma);
 
-// Where the left view shows dark lines, 17 nodes of them and hardly wider than six: between closed lips,
+// Where the left view shows dark lines, 16 nodes of them and hardly wider than six: between closed lips,
 // under a lid, along a wrinkle. Skin folds there, or may: the prior lets it, the views say whether it does.
 // The window's nodes are `step` pixels apart. Memory: scratch only. Results do not depend on the number of
 // threads.
