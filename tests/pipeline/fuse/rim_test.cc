@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
@@ -70,25 +69,6 @@ TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
     EXPECT_TRUE(std::ranges::any_of(border, [&](const BorderEdge& e) { return e[0] == v; }));
   EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1), 1e-3) << "closed, and facing the same way";
   EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSheetSide - 1));
-}
-
-// A tongue that stands up in a hole: across its root runs an edge that is there already.
-TEST(Rims, OfHolesThatCannotBeClosedAreNamed) {
-  FaceMesh mesh =
-      sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 7 && !(x == 5 && y == 4); });
-  for (const int x : {5, 6}) mesh.vertices_mm[std::size_t(5 * kSheetSide + x)].z = -9;
-  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
-  const std::size_t before = mesh.triangles.size();
-  const ClosedHoles closed =
-      close_holes(mesh.vertices_mm, outwards(mesh), border, {60, mouths(0)}, mesh.triangles);
-  EXPECT_TRUE(closed.beside.empty());
-  EXPECT_EQ(mesh.triangles.size(), before);
-  std::set<std::uint32_t> rim;
-  for (const BorderEdge& e : border)
-    if (e[0] % kSheetSide > 0 && e[0] % kSheetSide < kSheetSide - 1 && e[0] >= kSheetSide &&
-        e[0] < kSheetSide * (kSheetSide - 1))
-      rim.insert(e[0]);
-  EXPECT_EQ(std::set<std::uint32_t>(closed.left_open.begin(), closed.left_open.end()), rim);
 }
 
 TEST(Rims, OfLargeHolesStayOpen) {
