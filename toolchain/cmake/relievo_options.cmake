@@ -7,6 +7,8 @@ set(RELIEVO_COVERAGE "" CACHE STRING "the rooms' folders whose lines gcov counts
 
 add_library(relievo_options INTERFACE)
 target_include_directories(relievo_options INTERFACE ${CMAKE_SOURCE_DIR})
+# SDL's package defines it for who includes SDL: all alike may share precompiled headers.
+target_compile_definitions(relievo_options INTERFACE _REENTRANT)
 target_compile_options(relievo_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wswitch-enum -Werror
   # g++ 12 sees overlapping copies in "a" + std::string that are not there (GCC bug 105651).
@@ -33,16 +35,22 @@ if(RELIEVO_COVERAGE)
   target_link_options(relievo_options INTERFACE --coverage)
 endif()
 
-# relievo_precompile(TARGET [HEADERS...]): reads the standard library's headers, and HEADERS, once a target: parsing
-# them is most of what a small file costs. The preset tidy does without: there a file that forgets an include is found.
-option(RELIEVO_PRECOMPILE "read library headers once a target" ON)
-function(relievo_precompile target)
-  if(RELIEVO_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/toolchain/cmake/standard_headers.h ${ARGN})
-    # g++ 12 warns of std::string in a precompiled header what it does not where the same header is read as text (as -Wno-restrict above).
-    target_compile_options(${target} PRIVATE
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>)
+# relievo_precompile(TARGET OWNER [HEADERS...]): parsing library headers is most of what a small file costs. OWNER, a target,
+# reads the standard library's and HEADERS once; others are given its result. The preset tidy does without: there a file
+# that forgets an include is found.
+option(RELIEVO_PRECOMPILE "read library headers once for many targets" ON)
+function(relievo_precompile target owner)
+  if(NOT RELIEVO_PRECOMPILE)
+    return()
   endif()
+  if(target STREQUAL owner)
+    target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/toolchain/cmake/standard_headers.h ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+  # g++ 12 warns of std::string in a precompiled header what it does not where the same header is read as text (as -Wno-restrict above).
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>)
 endfunction()
 
 # relievo_together(TARGET SOURCES... [ALONE regexes...]): up to eight files of one folder are compiled as one: half of what
@@ -85,14 +93,17 @@ function(relievo_together target)
 endfunction()
 
 # relievo_room(NAME [READS_BYTES] [DIRS sub/folders...] [LIBS private libraries...] [ROOMS rooms it may use...]
-#              [PRECOMPILE headers of libraries...] [ALONE regexes...])
+#              [PRECOMPILE target, headers of libraries...] [ALONE regexes...])
 # One static library from every .cc below the folders named (default: all of the current folder). READS_BYTES: it takes
-# numbers out of bytes that come from outside, and is sanitized for alignment, too. PRECOMPILE: what many of its files
-# include beside the standard library.
+# numbers out of bytes that come from outside, and is sanitized for alignment, too. PRECOMPILE: relievo_precompile's
+# arguments (default: relievo_base, whose headers are the standard library's).
 function(relievo_room name)
   cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;ROOMS;PRECOMPILE;ALONE" ${ARGN})
   if(NOT arg_DIRS)
     set(arg_DIRS .)
+  endif()
+  if(NOT arg_PRECOMPILE)
+    set(arg_PRECOMPILE relievo_base)
   endif()
   set(sources)
   foreach(dir ${arg_DIRS})
@@ -116,26 +127,52 @@ function(relievo_room name)
   target_compile_features(relievo_${name} PUBLIC cxx_std_20)
 endfunction()
 
+# relievo_test_options(TARGET): how what only tests is compiled.
+function(relievo_test_options target)
+  # What is measured lies in the rooms; a test itself is compiled in half the time.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  relievo_precompile(${target} test_support <gtest/gtest.h>)
+  if(RELIEVO_SANITIZE)
+    # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold. What a sanitizer
+    # finds lies in the rooms: a fifth of the time to build a test is the lines of its own that a report would name.
+    target_compile_options(${target} PRIVATE -g0 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+  endif()
+endfunction()
+
 # relievo_tests(NAME LIBS... [ALONE regexes...]): one GoogleTest program from every *_test.cc below the current folder.
 function(relievo_tests name)
   cmake_parse_arguments(arg "" "" "ALONE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)
-  if(NOT sources)
-    return()
-  endif()
   add_executable(test_${name} ${sources})
   relievo_together(test_${name} ${sources} ALONE ${arg_ALONE})
   target_link_libraries(test_${name} PRIVATE relievo_options ${arg_UNPARSED_ARGUMENTS} GTest::gtest_main)
   if(name IN_LIST RELIEVO_COVERAGE)  # what a header has in it is compiled here
     set_target_properties(test_${name} PROPERTIES RELIEVO_COUNTED ON)
   endif()
-  # What is measured lies in the rooms; a test itself is compiled in half the time.
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  relievo_precompile(test_${name} <gtest/gtest.h>)
-  if(RELIEVO_SANITIZE)
-    # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold. What a sanitizer
-    # finds lies in the rooms: a fifth of the time to build a test is the lines of its own that a report would name.
-    target_compile_options(test_${name} PRIVATE -g0 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+  relievo_test_options(test_${name})
+  relievo_discover(test_${name} ${name})
+endfunction()
+
+# relievo_discover(TARGET ROOM): the tests of a program, for ctest: ROOM.SUITE.TEST. Under a sanitizer starting a program
+# costs more than most tests do: it is started sixteen times (ROOM.0 to ROOM.15), and runs every sixteenth of its tests
+# each time. The address sanitizer's are without those of tests/not_sanitized.txt.
+set(not_sanitized ${CMAKE_SOURCE_DIR}/tests/not_sanitized.txt)
+function(relievo_discover target room)
+  if(NOT RELIEVO_SANITIZE)
+    gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES PROPERTIES TIMEOUT 900 DISCOVERY_TIMEOUT 60)
+    return()
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. NO_PRETTY_VALUES PROPERTIES TIMEOUT 900 DISCOVERY_TIMEOUT 60)
+  set(filter "*-")
+  if(RELIEVO_SANITIZE MATCHES address)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${not_sanitized})
+    file(STRINGS ${not_sanitized} lines REGEX "^${room} ")
+    list(TRANSFORM lines REPLACE "^${room} " "")
+    list(JOIN lines ":" lines)
+    string(APPEND filter ${lines})
+  endif()
+  foreach(shard RANGE 15)
+    add_test(NAME ${room}.${shard} COMMAND ${target} --gtest_filter=${filter})
+    set_tests_properties(${room}.${shard} PROPERTIES TIMEOUT 1800
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=16;GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()
