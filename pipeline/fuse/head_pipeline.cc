@@ -46,7 +46,9 @@ std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Regis
                        .centre_px = right ? pose.right_centre_px : pose.centre_px,
                        .view_from_head = view_from_head,
                        .master = k == 0,
-                       .right = right});
+                       .right = right,
+                       .pose = &pose,
+                       .pose_from_head = back});
     }
   return views;
 }

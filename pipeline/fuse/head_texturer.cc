@@ -26,6 +26,8 @@ constexpr float kLeastCosine = 0.17F;        // 80 degrees: not looked at
 constexpr float kFadeEdge = 0.12F;           // of a view's say, lost an edge nearer to where it ends ...
 constexpr int kFadeEdges = 8;                // ... over so many edges
 constexpr float kOthersOnCompleted = 0.05F;  // say of other poses where the master completed what it saw
+constexpr float kOwnMm = 3;                  // from what its own pair measured: the same skin
+constexpr float kBesideMm = 4;               // from a place: what lies around it
 constexpr float kMasterLevel = 20;           // the others are brought to the master's level
 constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
 constexpr float kBorderPx = 3;
@@ -147,12 +149,30 @@ class Texturing {
       const std::size_t x = std::size_t(std::min(int(p.x) / kDepthShare, w - 1)),
                         y = std::size_t(std::min(int(p.y) / kDepthShare, h - 1));
       if (p.z > room.depth[y * std::size_t(w) + x] + kHiddenMm / cosine) continue;
+      if (!view.master && !is_own(view, mesh_.vertices_mm[v])) continue;
       float here = cosine - kLeastCosine;
       if (view.master) here *= kMasterFirst;
       if (!view.master && mesh_.measured[v] == 0) here *= kOthersOnCompleted;
       say_[i * vertices_ + v] = here;
     }
     fade(i, room.share);
+  }
+
+  // What its own pair measured there or around; beyond, a surface that is a little too large would hide what
+  // lies behind the head.
+  static bool is_own(const HeadView& view, const Vec3f& place) {
+    if (view.pose == nullptr) return true;
+    const Vec3f at = narrow(apply(view.pose_from_head, wide(place)));
+    const auto own = view.pose->look(at);
+    if (own && std::abs(dot(own->normal, minus(at, own->at_mm))) < kOwnMm) return true;
+    const auto is_beside = [&](float x, float y) {
+      for (float mm = kBesideMm; mm <= 3 * kBesideMm; mm += kBesideMm)
+        if (const auto hit = view.pose->look({at.x + x * mm, at.y + y * mm, at.z});
+            hit && std::abs(hit->at_mm.z - at.z) < 2 * mm)
+          return true;
+      return false;
+    };
+    return (is_beside(-1, 0) && is_beside(1, 0)) || (is_beside(0, -1) && is_beside(0, 1));
   }
 
   // Towards where a view ends, or something hides the head from it.

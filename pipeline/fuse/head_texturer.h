@@ -16,6 +16,7 @@
 #include <span>
 
 #include "pipeline/base/stage.h"
+#include "pipeline/fuse/head_pose.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/texture_atlas.h"
 
@@ -30,6 +31,8 @@ struct HeadView {
   RigidTransform view_from_head;  // from the mesh's frame into the camera's, rectified
   bool master = false;
   bool right = false;
+  const HeadPose* pose = nullptr;  // whose photograph it is, and what that measured; none: all it shows
+  RigidTransform pose_from_head;
 };
 
 // The mesh's vertices from `closing` on close holes.

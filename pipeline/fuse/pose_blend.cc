@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/base/statistics.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -35,8 +36,22 @@ float rank(std::size_t k, float trust, float weight) {
 
 PoseBlend::PoseBlend(std::span<const HeadPose> poses, const Registration& registration,
                      const HeadZones& zones, StageContext& context)
-    : poses_(poses), registration_(registration), zones_(zones), context_(context), back_(&context.scratch) {
+    : poses_(poses),
+      registration_(registration),
+      zones_(zones),
+      context_(context),
+      back_(&context.scratch),
+      usual_(&context.scratch) {
   for (const RegisteredPose& p : registration.poses) back_.push_back(inverse(p.first_from_pose));
+  usual_.reserve(poses.size());
+  for (const HeadPose& pose : poses) {
+    const Arena::Mark mark(context.scratch);
+    std::pmr::vector<float> sigmas(&context.scratch);
+    sigmas.reserve(pose.nodes.size());
+    for (const SurfaceHit& node : pose.nodes)
+      if (node.trust > 0) sigmas.push_back(node.sigma_mm);
+    usual_.push_back(float(median(sigmas)));
+  }
 }
 
 std::optional<SurfaceHit> PoseBlend::look(std::size_t k, const Vec3f& place) const {
@@ -105,7 +120,8 @@ std::optional<PoseBlend::Placed> PoseBlend::step(const Vec3f& at, const Vec3f& n
     const float d = dot(hit->normal, minus(at, hit->at_mm));
     if (std::abs(d) > 2 * kReachMm) continue;
     const float certainty = 1 / squared(std::max(hit->sigma_mm, kLeastSigmaMm));
-    seen[k] = {d, hit->trust * certainty, certainty, hit->trust, hit->normal};
+    const float shared = std::sqrt(std::max(1 / certainty - squared(usual_[k]), 0.0F));
+    seen[k] = {d, hit->trust * certainty, certainty, hit->trust, shared, hit->normal};
     if (std::abs(d) > kReachMm) continue;
     if (best == poses_.size() ||
         rank(k, seen[k].trust, seen[k].weight) > rank(best, seen[best].trust, seen[best].weight))
@@ -126,7 +142,9 @@ PoseBlend::Placed PoseBlend::mean_of(std::array<Seen, kMostPoses>& seen, std::si
   for (const Seen& s : seen)
     if (s.weight > 0) least = std::min(least, s.certainty);
   Vec3f pull{};
-  float weight = 0, variance = 0;
+  // Where lips shine or a fold is smoothed, a place is less sure than skin usually is: that misleads all
+  // poses alike, and their mean knows no better. The rest is noise.
+  float weight = 0, variance = 0, shared = 0;
   std::size_t most = best;
   unsigned poses = 0;
   for (std::size_t k = 0; k < poses_.size(); ++k) {
@@ -139,14 +157,15 @@ PoseBlend::Placed PoseBlend::mean_of(std::array<Seen, kMostPoses>& seen, std::si
     s.weight *= k == best ? 1 : std::clamp(std::max(2 - 2 * off, trusted), 0.0F, 1.0F);
     pull = along(pull, s.weight * s.distance, s.normal);
     weight += s.weight;
-    variance += s.weight * s.weight * (1 / s.certainty);
+    variance += squared(s.weight) * (1 / s.certainty - squared(s.shared));
+    shared += s.weight * s.shared;
     if (s.weight > seen[most].weight) most = k;
     if (s.weight > 0) poses |= 1U << k;
   }
   const Vec3f there = along(at, -1 / weight, pull);
   const float registered = float(registration_sigma(most, there, normal));
-  return {there, std::sqrt(variance / squared(weight) + squared(registered)), std::uint8_t(most),
-          std::uint8_t(poses)};
+  return {there, std::sqrt((variance + squared(shared)) / squared(weight) + squared(registered)),
+          std::uint8_t(most), std::uint8_t(poses)};
 }
 
 // Another pose that counts for more shows the skin elsewhere.

@@ -45,7 +45,7 @@ class PoseBlend {
  private:
   // What a pose shows at a vertex.
   struct Seen {
-    float distance = 0, weight = 0, certainty = 0, trust = 0;
+    float distance = 0, weight = 0, certainty = 0, trust = 0, shared = 0;
     Vec3f normal{};
   };
 
@@ -62,6 +62,7 @@ class PoseBlend {
   const HeadZones& zones_;
   StageContext& context_;
   std::pmr::vector<RigidTransform> back_;  // into each pose's frame
+  std::pmr::vector<float> usual_;          // median sigma of each pose
 };
 
 }  // namespace relievo::pipeline

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <vector>
 
+#include "hal/base/statistics.h"
 #include "tests/pipeline/fuse/formula_head.h"
 
 namespace relievo::pipeline {
@@ -50,6 +52,7 @@ class ApartPoses : public Poses {
       auto pose = room_.run([](StageContext& c) { return seen(0, 0, 0, c, 0.12); });
       EXPECT_TRUE(pose);
       poses_.push_back(*std::move(pose));
+      for (SurfaceHit& node : poses_.back().nodes) node.sigma_mm *= is_lip(node.at_mm) ? kLipShare : 1;
     }
     for (std::size_t k = 0; k < poses_[0].nodes.size(); ++k)
       poses_[0].nodes[k].trust *=
@@ -78,6 +81,12 @@ class ApartPoses : public Poses {
     EXPECT_TRUE(head);
     return head;
   }
+  static constexpr float kLipShare = 3;  // as unsure as other skin
+  bool is_lip(const Vec3f& place) const {
+    if (!has_lips_) return false;
+    const Vec3d at = apply(inverse(camera_from_head(0)), wide(place));
+    return std::abs(at.x) < 25 && std::abs(at.y + 35) < 10;
+  }
   static Landmarks left_eye() {
     const RigidTransform camera = camera_from_head(0);
     const auto on_skin = [&](double x, double y) {
@@ -90,6 +99,7 @@ class ApartPoses : public Poses {
     landmarks[std::size_t(LandmarkName::ExocanthionLeft)] = on_skin(43, 30);
     return landmarks;
   }
+  bool has_lips_ = false;
 };
 
 TEST_F(ApartPoses, HaveNoStepWhereTheOtherBeginsToCountMost) {
@@ -114,6 +124,22 @@ TEST_F(ApartPoses, SayThatLidsWereMeasuredAndTheEyeBetweenThemWasNot) {
   }
   EXPECT_GT(lids, 100);
   EXPECT_GT(eye, 50);
+}
+
+// The line between lips is smoothed alike in all pictures: as many as there are, they were said to be surer.
+TEST_F(ApartPoses, TogetherAreSurerOfSkinAndNotOfLips) {
+  has_lips_ = true;
+  const auto head = fused({}, 0.01, -200, 1, [](const Vec3d&) { return true; });
+  ASSERT_TRUE(head);
+  std::array<std::vector<float>, 2> sigmas;
+  for (std::size_t v = 0; v < head->vertices_mm.size(); ++v) {
+    const Vec3d at = apply(poses_[0].head_from_camera, wide(head->vertices_mm[v]));
+    if (std::abs(at.x) < 20 && std::abs(at.y + 35) < 6) sigmas[1].push_back(head->sigma_mm[v]);
+    if (std::abs(at.x) < 20 && std::abs(at.y - 20) < 20) sigmas[0].push_back(head->sigma_mm[v]);
+  }
+  constexpr double kOneMm = 0.12;
+  EXPECT_LT(median(sigmas[0]), 0.8 * kOneMm) << sigmas[0].size();
+  EXPECT_GT(median(sigmas[1]), 0.9 * kLipShare * kOneMm) << sigmas[1].size();
 }
 
 // Parts of it were left as plates behind ears and crown.

@@ -42,8 +42,8 @@ struct Texels {
 };
 
 // Of a wall whose photograph has that grey in its right third, and whose columns from that one on close a
-// hole.
-Texels texels_of(std::uint8_t right_third, std::uint32_t closing = kSide) {
+// hole. With a `pose` the photograph is not the master's.
+Texels texels_of(std::uint8_t right_third, std::uint32_t closing = kSide, const HeadPose* pose = nullptr) {
   std::vector<std::uint8_t> rgb(std::size_t(3 * kPhotoPx * kPhotoPx), kSkin);
   for (std::size_t k = 0; k < rgb.size(); ++k)
     if (k / 3 % kPhotoPx > kPhotoPx * 2 / 3) rgb[k] = right_third;
@@ -52,7 +52,8 @@ Texels texels_of(std::uint8_t right_third, std::uint32_t closing = kSide) {
   view.width_px = view.height_px = kPhotoPx;
   view.focal_px = 1500;
   view.centre_px = {kPhotoPx / 2.0, kPhotoPx / 2.0};
-  view.master = true;
+  view.master = pose == nullptr;
+  view.pose = pose;
   StageRoom room;
   Texels texels;
   const auto done = room.run([&](StageContext& c) -> Result<void> {
@@ -88,6 +89,34 @@ TEST(HeadTexture, OnAClosedHoleIsThatOfTheSkinAround) {
   EXPECT_EQ(texels.dark, 0);
   EXPECT_GT(texels.filled, 100);
   EXPECT_GT(texels.photographed, texels.filled);
+}
+
+// What a pose measured of the wall: all, but for those columns.
+HeadPose measured_but(std::uint32_t first, std::uint32_t last) {
+  HeadPose pose(std::pmr::get_default_resource());
+  pose.columns = pose.rows = int(kSide);
+  pose.focal_px = 1500;
+  pose.centre_px = {kPhotoPx / 2.0, kPhotoPx / 2.0};
+  pose.step_px = 2 * pose.focal_px / kWallMm;
+  pose.first_px = {pose.centre_px.x - 15 * pose.step_px, pose.centre_px.y - 15 * pose.step_px};
+  for (std::uint32_t row = 0; row < kSide; ++row)
+    for (std::uint32_t column = 0; column < kSide; ++column)
+      pose.nodes.push_back({{2 * float(column) - 30, 2 * float(row) - 30, float(kWallMm)},
+                            {0, 0, -1},
+                            0.1F,
+                            column >= first && column < last ? 0.0F : 1.0F});
+  return pose;
+}
+
+// Under a chin, a surface that was a little too large had the colour of the wall behind the person.
+TEST(HeadTexture, EndsWhereAPosesOwnMeasureDoesAndNotInItsGaps) {
+  const HeadPose right_missing = measured_but(kSide * 2 / 3 - 2, kSide);
+  const Texels beyond = texels_of(1, kSide, &right_missing);
+  EXPECT_EQ(beyond.dark, 0);
+  EXPECT_GT(beyond.filled, 100);
+  const HeadPose gap = measured_but(kSide / 3, kSide / 3 + 4);
+  const Texels within = texels_of(1, kSide, &gap);
+  EXPECT_LT(within.filled, within.photographed / 10);
 }
 
 // Nothing of what grows with the photograph lies on the heap, where no plan holds it.
