@@ -141,7 +141,10 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first, 
         return {};
       },
       [this, made, calibrated, visit = visit_](const std::optional<Error>& error) {
-        if (!error) use(*std::move(made->pipeline), true);
+        if (!error) {
+          use(*std::move(made->pipeline), true);
+          parts_.log.say(ui::LogEvent::CalibrationUsed);
+        }
         if (visit != visit_) return error ? parts_.log.fault(*error) : void();
         if (!error) mounted_anew_ = false;
         stored_ = stored_ || (calibrated != 0 && calibrated == runs_ && made->revision != 0);

@@ -37,10 +37,11 @@ enum class LogEvent : std::uint8_t {
   RecordsExpired,   // how many
   RecordErased,     // its number
   SelfTestBegun,
-  ConsentTaken,    // its version
-  SettingUnknown,  // what is stored in place of one
-  TakenHome,       // a visitor has a copy of their own
-  EndedEarly,      // the run before this one: the power or the program failed
+  ConsentTaken,     // its version
+  SettingUnknown,   // what is stored in place of one
+  TakenHome,        // a visitor has a copy of their own
+  EndedEarly,       // the run before this one: the power or the program failed
+  CalibrationUsed,  // another one than before
   Count
 };
 

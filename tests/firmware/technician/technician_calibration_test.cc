@@ -48,6 +48,7 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(rig().until([&] { return rig().now().calibration.history_count == count + 1; }))
       << rig().now().calibration.problem.detail;
   EXPECT_EQ(rig().revision, newest + 1);
+  EXPECT_EQ(rig().log.entries().back().event, ui::LogEvent::CalibrationUsed);
   EXPECT_EQ(rig().stages->calibration()->revision, newest + 1) << "visitors are measured with it";
   EXPECT_EQ(rig().store->active_calibration()->revision, newest + 1);
   char error[24];

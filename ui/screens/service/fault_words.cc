@@ -53,7 +53,8 @@ constexpr std::array<std::array<const char*, 2>, std::size_t(LogEvent::Count)> k
      {mark_tr("Consent text {} was taken over")},
      {mark_tr("The setting “{}” is not one: what is usual holds")},
      {mark_tr("A visitor took their portrait on a stick")},
-     {mark_tr("This device has just restarted")}}};
+     {mark_tr("This device has just restarted")},
+     {mark_tr("Calibration")}}};
 static_assert(kLogWords.back()[0] != nullptr);
 
 // In the order of Setting.
