@@ -158,8 +158,8 @@ class Texturing {
     fade(i, room.share);
   }
 
-  // What its own pair measured there or around; beyond, a surface that is a little too large would hide what
-  // lies behind the head.
+  // Whether its own pair measured skin there or around: elsewhere, where the surface is a little too large,
+  // it shows what lies behind the head.
   static bool is_own(const HeadView& view, const Vec3f& place) {
     if (view.pose == nullptr) return true;
     const Vec3f at = narrow(apply(view.pose_from_head, wide(place)));

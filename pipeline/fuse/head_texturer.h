@@ -5,10 +5,10 @@
 // it straightest, and gives way to the next over a short stretch (cosine weights; Debevec, Taylor, Malik
 // 1996). The light stays where it is while the head turns: each photograph is brought to the others' level by
 // a slowly varying difference, so that no seam is left where one ends (Lempitsky, Ivanov 2007). Surface that
-// was completed and not measured shows the master's photograph nearly alone: eyes and lips move. What no
-// camera saw, and what closes a hole, is filled and flagged. Memory: the atlas in `output`, the rest in
-// `scratch`. Thread: any; works on the pool, the result does not depend on its size. Errors: Cancelled;
-// throws std::bad_alloc.
+// was completed and not measured shows the master's photograph nearly alone: eyes and lips move. Another
+// pose's photograph counts only where its own pair measured skin, or skin around. What no camera saw, and
+// what closes a hole, is filled and flagged. Memory: the atlas in `output`, the rest in `scratch`. Thread:
+// any; works on the pool, the result does not depend on its size. Errors: Cancelled; throws std::bad_alloc.
 #pragma once
 
 #include <cstddef>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What all poses show together, once they are registered: their mean where they agree within sigma; where
-// they do not, the master's surface where it sees well, else the surest. All places and directions are in the
-// master's frame, millimetres; what it is made of outlives it. Thread: any, several at once. Throws
-// std::bad_alloc.
+// they do not, the master's surface where it sees well, else the surest. Noise averages out; what makes a
+// place less sure than a pose's skin usually is does not. All places and directions are in the master's
+// frame, millimetres; what it is made of outlives it. Thread: any, several at once. Throws std::bad_alloc.
 #pragma once
 
 #include <array>

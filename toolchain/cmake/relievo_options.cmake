@@ -7,8 +7,9 @@ set(RELIEVO_COVERAGE "" CACHE STRING "the rooms' folders whose lines gcov counts
 
 add_library(relievo_options INTERFACE)
 target_include_directories(relievo_options INTERFACE ${CMAKE_SOURCE_DIR})
-# SDL's package defines it for who includes SDL: all alike may share precompiled headers.
+# What the packages of SDL and Pango ask for who includes them: all alike can share precompiled headers.
 target_compile_definitions(relievo_options INTERFACE _REENTRANT)
+target_compile_options(relievo_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-pthread>)
 target_compile_options(relievo_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wswitch-enum -Werror
   # g++ 12 sees overlapping copies in "a" + std::string that are not there (GCC bug 105651).
@@ -36,14 +37,14 @@ if(RELIEVO_COVERAGE)
 endif()
 
 # relievo_precompile(TARGET OWNER [HEADERS...]): parsing library headers is most of what a small file costs. OWNER, a target,
-# reads the standard library's and HEADERS once; others are given its result. The preset tidy does without: there a file
-# that forgets an include is found.
+# reads the standard library's and HEADERS once; others are given its result. Where lines are counted, they are compiled
+# in different ways: each reads its own. The preset tidy does without: there a file that forgets an include is found.
 option(RELIEVO_PRECOMPILE "read library headers once for many targets" ON)
 function(relievo_precompile target owner)
   if(NOT RELIEVO_PRECOMPILE)
     return()
   endif()
-  if(target STREQUAL owner)
+  if(target STREQUAL owner OR RELIEVO_COVERAGE)
     target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/toolchain/cmake/standard_headers.h ${ARGN})
   else()
     target_precompile_headers(${target} REUSE_FROM ${owner})
@@ -163,7 +164,9 @@ function(relievo_discover target room)
     return()
   endif()
   set(filter "*-")
+  set(timeout 7200)
   if(RELIEVO_SANITIZE MATCHES address)
+    set(timeout 1800)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${not_sanitized})
     file(STRINGS ${not_sanitized} lines REGEX "^${room} ")
     list(TRANSFORM lines REPLACE "^${room} " "")
@@ -172,7 +175,7 @@ function(relievo_discover target room)
   endif()
   foreach(shard RANGE 15)
     add_test(NAME ${room}.${shard} COMMAND ${target} --gtest_filter=${filter})
-    set_tests_properties(${room}.${shard} PROPERTIES TIMEOUT 1800
+    set_tests_properties(${room}.${shard} PROPERTIES TIMEOUT ${timeout}
       ENVIRONMENT "GTEST_TOTAL_SHARDS=16;GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
