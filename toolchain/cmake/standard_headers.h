@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is read once a target (relievo_precompile); no file includes it.
+// What is read once for all rooms and benches, once for all tests, and once with Eigen for pipeline/
+// (relievo_precompile); no file includes it.
 #pragma once
 
 #include <algorithm>
