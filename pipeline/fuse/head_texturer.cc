@@ -27,7 +27,7 @@ constexpr float kFadeEdge = 0.12F;           // of a view's say, lost an edge ne
 constexpr int kFadeEdges = 8;                // ... over so many edges
 constexpr float kOthersOnCompleted = 0.05F;  // say of other poses where the master completed what it saw
 constexpr float kOwnMm = 3;                  // from what its own pair measured: the same skin
-constexpr float kBesideMm = 4;               // from a place: what lies around it
+constexpr float kBesideMm = 4;               // once to three times that from a place: around it
 constexpr float kMasterLevel = 20;           // the others are brought to the master's level
 constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
 constexpr float kBorderPx = 3;
@@ -158,8 +158,8 @@ class Texturing {
     fade(i, room.share);
   }
 
-  // Whether its own pair measured skin there or around: elsewhere, where the surface is a little too large,
-  // it shows what lies behind the head.
+  // Whether the photograph's own pair measured skin there or around. Elsewhere, where the surface is a little
+  // too large, the photograph shows what lies behind the head.
   static bool is_own(const HeadView& view, const Vec3f& place) {
     if (view.pose == nullptr) return true;
     const Vec3f at = narrow(apply(view.pose_from_head, wide(place)));
