@@ -139,6 +139,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
     for (const storage::BundleFile& file : files) sums[file.name] = storage::sha256(file.bytes);
     RELIEVO_TRY_ASSIGN(auto manifest, manifest_files(store, copy, std::move(sums)));
     std::ranges::move(manifest, std::back_inserter(files));
+    RELIEVO_TRY(log_export(store, copy));
     RELIEVO_TRY(write_sealed(args, files));
     console.say(done + ", sealed: age -d opens it, tar unpacks it");
     return {};
@@ -154,6 +155,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
     RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(write_manifest(store, copy, folder.path(), args.output));
   RELIEVO_TRY(go_on(args));
+  RELIEVO_TRY(log_export(store, copy));
   RELIEVO_TRY(folder.commit());
   console.say(done);
   return {};
@@ -254,8 +256,10 @@ Result<void> run(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
   RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   if (args.verb == Verb::Import) return import(args, folder, services);
-  RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services)
-                                                                : services.open_store(folder, false));
+  const bool writes =
+      args.verb == Verb::Erase || args.verb == Verb::Export;  // an export is a line of the log
+  RELIEVO_TRY_ASSIGN(const auto store,
+                     writes ? open_kept_store(folder, services) : services.open_store(folder, false));
   if (args.verb == Verb::List) return list(*store, services.console);
   RELIEVO_TRY_ASSIGN(const storage::Subject subject, find_subject(*store, args.subject));
   switch (args.verb) {

@@ -37,6 +37,8 @@ Result<std::vector<storage::BundleFile>> manifest_files(storage::Store& store, c
 // Beside the files that are in the folder. An error names `place`, as that of write_text().
 Result<void> write_manifest(storage::Store& store, const CopyOf& of, const std::filesystem::path& folder,
                             const std::filesystem::path& place);
+// Before the copy leaves: no portrait is out of the store of which the store's log does not tell.
+Result<void> log_export(storage::Store& store, const CopyOf& of);
 Result<Sums> sums_of(const std::filesystem::path& folder);  // of every file in it
 
 using SigningKey = std::array<std::byte, 32>;  // the public half of Ed25519

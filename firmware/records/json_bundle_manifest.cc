@@ -118,6 +118,11 @@ Result<std::vector<storage::BundleFile>> read_bundle_folder(const fs::path& fold
   return files;
 }
 
+Result<void> log_export(storage::Store& store, const CopyOf& of) {
+  return store.append_audit(
+      {"enrolment.exported", of.subject.id, std::to_string(std::int64_t(of.enrolment.id))});
+}
+
 Result<SigningKey> check_bundle(std::span<const BundleFile> files) {
   RELIEVO_TRY_ASSIGN(const BundleFile* manifest, find(files, kManifest));
   RELIEVO_TRY_ASSIGN(const BundleFile* signature, find(files, kSignature));

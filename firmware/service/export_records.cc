@@ -109,10 +109,8 @@ struct Export {
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
     const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock.wall_now());
     RELIEVO_TRY(write_manifest(store, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
-    // Before it leaves: no portrait is out of the store of which its log does not tell.
     RELIEVO_TRY(work.reach(ExportStep::Note, done + 0.5F * share));
-    RELIEVO_TRY(
-        store.append_audit({"enrolment.exported", id, std::to_string(std::int64_t(enrolments.back().id))}));
+    RELIEVO_TRY(log_export(store, {subject, enrolments.back(), now}));
     RELIEVO_TRY_ASSIGN(Sums written, keep_folder(folder, target, media, &work, done, share));
     made.emplace_back(target, std::move(written));
     return {};

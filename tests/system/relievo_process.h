@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,11 @@ class RelievoProcess : public testing::Test {
   // It must refuse: exit code 1, one line that names the place and the trouble, and nothing written.
   void refused(const std::vector<std::string>& words, const std::string& place,
                const std::string& trouble = "") {
-    const std::string before = listing(here.path());
+    // A store that was opened to write has no log of SQLite's beside it when it is closed; readers leave one.
+    const auto files = [this] {
+      return std::regex_replace(listing(here.path()), std::regex("[^\n]*/relievo\\.db-(shm|wal)\n"), "");
+    };
+    const std::string before = files();
     const Said said = relievo(words);
     std::string call;
     for (const std::string& word : words) call += word + " ";
@@ -67,7 +72,7 @@ class RelievoProcess : public testing::Test {
     EXPECT_EQ(said.err.rfind("relievo: ", 0), 0U) << call << "\n" << said.err;
     EXPECT_NE(said.err.find(place), std::string::npos) << call << "\n" << said.err;
     EXPECT_NE(said.err.find(trouble), std::string::npos) << call << "\n" << said.err;
-    EXPECT_EQ(listing(here.path()), before) << call;
+    EXPECT_EQ(files(), before) << call;
   }
 
   TemporaryFolder here;

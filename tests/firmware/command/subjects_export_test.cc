@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Somebody's copy is whole or not there: also after Ctrl-C, and never among a store's own files.
+// Somebody's copy is whole or not there: also after Ctrl-C, and never among a store's own files. The log
+// tells of it.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -36,8 +37,9 @@ Result<void> export_ada(const fs::path& from, const fs::path& to, const fs::path
   const CtrlC clock(ctrl_c);
   Console console;
   Services services{.console = console, .clock = clock};
-  services.open_store = [](const Path& at, bool) {
-    return storage::open_sqlite_store(at, still, {.mode = storage::OpenMode::ReadOnly});
+  services.open_store = [](const Path& at, bool to_write) {
+    return storage::open_sqlite_store(
+        at, still, {.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly});
   };
   SubjectsArgs args;
   args.verb = SubjectsArgs::Verb::Export;
@@ -91,6 +93,26 @@ TEST(SubjectsExport, WritesNothingAmongAStoresFiles) {
   EXPECT_EQ(test::read_text(store / "relievo.key"), key);
   EXPECT_TRUE(export_ada(store, ada.folder / "to/ada", {}));
   EXPECT_TRUE(export_ada(store, ada.folder / "to/ada.age", ada.folder / "passphrase"));
+}
+
+TEST(SubjectsExport, LeavesALineOfTheLog) {
+  const WithAda ada;
+  const auto exports = [&] {
+    const auto store = storage::test::opened(ada.folder / "from", storage::test::kNoReserve);
+    const auto log = store->audit(0, -1);
+    EXPECT_TRUE(log);
+    std::vector<std::string> told;
+    for (const auto& one : *log)
+      if (one.event.what == "enrolment.exported")
+        told.push_back(std::to_string(std::int64_t(one.event.subject)) + ":" + one.event.detail);
+    return told;
+  };
+  const std::vector<std::string> one{"1:1"}, two{"1:1", "1:1"};
+  EXPECT_TRUE(exports().empty());
+  ASSERT_TRUE(export_ada(ada.folder / "from", ada.folder / "to/ada", {}));
+  EXPECT_EQ(exports(), one);
+  ASSERT_TRUE(export_ada(ada.folder / "from", ada.folder / "to/ada.age", ada.folder / "passphrase"));
+  EXPECT_EQ(exports(), two);
 }
 
 }  // namespace
