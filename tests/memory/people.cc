@@ -42,7 +42,7 @@ People::People(std::size_t many) {
   for (std::size_t who = 0; who < many; ++who) {
     const auto head = hal::sim::make_head(hal::sim::traits_of(kPeople[who].person), pool);
     in_front_[who] = photograph(head, kPeople[who].pose);
-    for (std::size_t yaw = 0; many > 1 && who == 0 && yaw < kYawsDeg.size(); ++yaw)
+    for (std::size_t yaw = 0; many == kMany && who == 0 && yaw < kYawsDeg.size(); ++yaw)
       turned_[yaw] = photograph(head, hal::sim::turned_about_neck(kPeople[who].pose, kYawsDeg[yaw]));
   }
 }

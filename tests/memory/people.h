@@ -17,8 +17,8 @@ namespace relievo::test {
 
 class People {
  public:
-  static constexpr std::size_t kMany = 4;  // each stands in another way; the first also turns the head
-  // So many of them, of several the first also turned: a second or two each.
+  static constexpr std::size_t kMany = 4;  // each stands in another way
+  // So many of them, of all the first also turned: a second or two each.
   explicit People(std::size_t many);
   pipeline::StereoCalibration calibration() const;
   // Shows them as long as this lives.

@@ -31,7 +31,7 @@ msgfmt=(msgcat "$1")   # a list
 sed 's/;xgettext /x/' <<END
 msgcat is only read here
 END
-if ! msgmerge; then LANG=C cmake --version | ccache; fi
+if ! msgmerge; then LANG=C cmake --version | ninja; fi
 case "$1" in
   all) msgconv x ;;
   msgattrib) "$1" ;;
@@ -91,8 +91,8 @@ class CheckSetup(unittest.TestCase):
 
     def test_a_program_that_a_script_calls(self):
         used = dict(check_setup.called("toolchain/script", SCRIPT))
-        self.assertEqual(sorted(pathlib.Path(path).name for path in used), ["ccache", "cmake", "echo", "msgconv", "nproc", "pkg-config", "sed"])
-        self.assert_lacks("ccache", used, "/usr/bin/ccache (called by toolchain/script)")
+        self.assertEqual(sorted(pathlib.Path(path).name for path in used), ["cmake", "echo", "msgconv", "ninja", "nproc", "pkg-config", "sed"])
+        self.assert_lacks("ninja-build", used, "/usr/bin/ninja (called by toolchain/script)")
 
     def test_what_no_package_brought_counts_where_machines_have_their_own(self):
         used = {path: "loaded by test_small" for path in ("/usr/local/lib/libx.so", "/opt/x/libx.so", "/home/somebody/libx.so")}

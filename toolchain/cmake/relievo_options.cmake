@@ -58,8 +58,7 @@ endfunction()
 # a small file costs is reading headers, and an edit still compiles a few seconds' worth. So the files of a folder may not
 # have private names in common; of tests all that lies in tests/ROOM/FOLDER is one folder. ALONE: files that are compiled
 # by themselves: those that take seconds, and those that have private names in common with another file of their folder.
-# CMake's own UNITY_BUILD would name files by absolute paths, and ccache would not find them from another checkout. The
-# preset tidy does not: it finds a file that forgets an include.
+# The preset tidy does without: it finds a file that forgets an include.
 option(RELIEVO_UNITY "compile the files of a folder together" OFF)
 function(relievo_together target)
   if(NOT RELIEVO_UNITY)
@@ -135,8 +134,13 @@ function(relievo_test_options target)
   relievo_precompile(${target} test_support <gtest/gtest.h>)
   if(RELIEVO_SANITIZE)
     # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold. What a sanitizer
-    # finds lies in the rooms: a fifth of the time to build a test is the lines of its own that a report would name.
+    # finds lies in the rooms: a fifth of the time to build a test is the lines of its own that a report would name, a
+    # third is checking its own temporaries after their end, and checks that are written out where a call does.
     target_compile_options(${target} PRIVATE -g0 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+    if(RELIEVO_SANITIZE MATCHES address)
+      target_compile_options(${target} PRIVATE -fno-sanitize-address-use-after-scope
+        $<$<CXX_COMPILER_ID:GNU>:SHELL:--param asan-instrumentation-with-call-threshold=0>)
+    endif()
   endif()
 endfunction()
 

@@ -63,7 +63,7 @@ class FaultHands : public StaffHands {
   void turn() {
     if (kick) kick();
     kiosk->turn();
-    std::this_thread::sleep_for(milliseconds(1));
+    std::this_thread::sleep_for(milliseconds(4));
   }
   State state() const { return kiosk->appliance().state(); }
   // Nobody touches the screen, and time passes.

@@ -68,7 +68,7 @@ class KioskHands : public testing::Test {
   bool until(const std::function<bool()>& reached) {
     for (int turn = 0; turn < 100'000 && !reached(); ++turn) {
       kiosk->turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return reached();
   }

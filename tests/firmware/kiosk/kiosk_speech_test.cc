@@ -78,7 +78,7 @@ class KioskSpeechTest : public KioskHands {
       for (; from < heard().size(); ++from)
         if (heard()[from].text.find(as_spoken(words)) != std::string::npos)
           return testing::AssertionSuccess();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return testing::AssertionFailure() << "never heard: " << words << "; last: " << last_heard();
   }

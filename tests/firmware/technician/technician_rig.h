@@ -114,7 +114,7 @@ class TechnicianRig {
   bool until(Condition condition) {
     for (int i = 0; i < 60'000 && !condition(); ++i) {
       turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return condition();
   }
