@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <memory_resource>
 #include <set>
 #include <string_view>
@@ -153,21 +152,6 @@ std::string last_name(const Path& folder) {
   return whole.filename().string();
 }
 
-using Files = std::map<std::string, Path>;
-
-// Pictures of one side, by what follows it in their names.
-Result<void> sort_in(const Path& file, std::string_view side, Files& files) {
-  const std::string extension = hal::lower_extension(file), stem = file.stem().string();
-  const bool picture = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-  if (!picture || !stem.starts_with(side) || files.emplace(stem.substr(side.size()), file).second) return {};
-  return invalid("two pictures with this name differ in their ending only; remove one").at(file.native());
-}
-
-std::string plain_name(const std::string& key) {
-  const auto first = key.find_first_not_of("_- ");
-  return first == std::string::npos ? "left/right" : key.substr(first);
-}
-
 // The size of the cameras' pictures is that of the first board seen. A picture without a board may have any:
 // it plays no part.
 Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file,
@@ -189,12 +173,12 @@ const char* finding(const pipeline::BoardView& view) {
   return view.right.empty() ? "no board in right" : "board found";
 }
 
-Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>& pairs,
+Result<pipeline::CalibratorInput> read_views(const std::vector<hal::PicturePairFiles>& pairs,
                                              const pipeline::BoardPattern& pattern, const Tell& tell) {
   pipeline::CalibratorInput input;
   input.pattern = pattern;
   bool any = false;
-  for (const PicturePairFiles& files : pairs) {
+  for (const hal::PicturePairFiles& files : pairs) {
     RELIEVO_TRY_ASSIGN(const hal::Picture left, hal::read_picture(files.left));
     RELIEVO_TRY_ASSIGN(const hal::Picture right, hal::read_picture(files.right));
     pipeline::BoardView& view = input.views.emplace_back();
@@ -219,7 +203,7 @@ std::string number(double value, int decimals) { return value <= 0 ? "-" : decim
 
 }  // namespace
 
-Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
+Result<void> write_calibration_report(const Path& folder, const std::vector<hal::PicturePairFiles>& pairs,
                                       const pipeline::CalibratorInput& input,
                                       const pipeline::CalibratorOutput& result, const std::string& made_at,
                                       const Tell& tell) {
@@ -289,33 +273,6 @@ Result<void> check_calibration_output(const Path& output) {
   return storage::must_lie_outside_stores(output);
 }
 
-Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error))
-    return Error{Errc::NotFound, "no such folder; give the one with the left* and right* pictures"}.at(
-        folder.native());
-  Files left;
-  Files right;
-  std::filesystem::directory_iterator entry(folder, error);
-  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-    RELIEVO_TRY(sort_in(entry->path(), "left", left));
-    RELIEVO_TRY(sort_in(entry->path(), "right", right));
-  }
-  if (error) return Error{Errc::IoFailed, "the folder cannot be read"}.at(folder.native());
-  if (left.empty() && right.empty())
-    return Error{Errc::NotFound, "holds no pictures named left* and right* (png or jpg)"}.at(folder.native());
-  const auto all_in = [](const Files& files, const Files& others, Literal what) -> Result<void> {
-    for (const auto& [key, file] : files)
-      if (!others.contains(key)) return invalid(what).at(file.native());
-    return {};
-  };
-  RELIEVO_TRY(all_in(left, right, "has no partner right* of the same name; add it or remove this one"));
-  RELIEVO_TRY(all_in(right, left, "has no partner left* of the same name; add it or remove this one"));
-  std::vector<PicturePairFiles> pairs;
-  for (const auto& [key, file] : left) pairs.push_back({plain_name(key), file, right.at(key)});
-  return pairs;
-}
-
 pipeline::BoardPattern pattern_of(const BoardArgs& board) {
   return {
       board.corners_across, board.corners_down,
@@ -328,7 +285,7 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, cons
   const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY(pattern.check());
   RELIEVO_TRY(check_calibration_output(args.output));
-  RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(args.pictures));
+  RELIEVO_TRY_ASSIGN(const auto pairs, hal::find_picture_pairs(args.pictures));
   if (pairs.size() > pipeline::kMaxBoardPairs)
     return invalid("holds more than 500 pairs; a few dozen are enough").at(args.pictures.native());
   RELIEVO_TRY_ASSIGN(pipeline::CalibratorInput input, read_views(pairs, pattern, tell));

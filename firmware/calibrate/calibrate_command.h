@@ -25,6 +25,7 @@
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
 #include "hal/device.h"
+#include "hal/recording/picture_pairs.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/live/live_state.h"
@@ -33,15 +34,7 @@
 
 namespace relievo::firmware {
 
-struct PicturePairFiles {
-  std::string name;  // what follows left and right, without _ or - before it
-  Path left;
-  Path right;
-};
-
 pipeline::BoardPattern pattern_of(const BoardArgs& board);
-
-Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder);
 
 // Can the file be written? Asked before the work begins.
 Result<void> check_calibration_output(const Path& output);
@@ -66,7 +59,7 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, cons
 // programs, and of each pair a picture with its corners and one with both views rectified.
 // Whole or not at all. One line a pair is told. Thread: main.
 // Errors: the pictures' (they are read once more), the disk's; each names its place.
-Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
+Result<void> write_calibration_report(const Path& folder, const std::vector<hal::PicturePairFiles>& pairs,
                                       const pipeline::CalibratorInput& input,
                                       const pipeline::CalibratorOutput& result, const std::string& made_at,
                                       const Tell& tell);

@@ -99,7 +99,7 @@ Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device
   const bool folder = name.starts_with(kFolder);
   if (folder) {
     const Path pictures = name.substr(kFolder.size());
-    RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(pictures));
+    RELIEVO_TRY_ASSIGN(const auto pairs, hal::find_picture_pairs(pictures));
     most = int(pairs.size());
     std::error_code error;
     if (!std::filesystem::exists(pictures / "capture.json", error)) shown = 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// libgpiod changed every name between 1.6 (Debian 12) and 2 (Debian 13): RELIEVO_GPIOD_2 says which.
+// By libgpiod 1.6, that of Debian 12; version 2 has other names for everything.
 #include "hal/linux/wire/gpio_trigger_line.h"
 
 #include <fcntl.h>
@@ -69,50 +69,7 @@ Error line_error(int number) {
   return meaning_of(number, kRows);
 }
 
-#ifdef RELIEVO_GPIOD_2
-
-// The lines of one chip, requested together.
-class Lines {
- public:
-  static Result<Lines> request(const GpioOptions& options) {
-    gpiod_chip* const chip = gpiod_chip_open(options.chip.c_str());
-    if (chip == nullptr) return chip_error(errno);
-    Lines lines;
-    lines.offsets_.push_back(options.trigger);
-    if (options.lamp) lines.offsets_.push_back(*options.lamp);
-    gpiod_line_settings* const settings = gpiod_line_settings_new();
-    gpiod_line_config* const config = gpiod_line_config_new();
-    gpiod_request_config* const request = gpiod_request_config_new();
-    if (settings != nullptr && config != nullptr && request != nullptr) {
-      gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_OUTPUT);
-      gpiod_line_settings_set_output_value(settings, GPIOD_LINE_VALUE_INACTIVE);
-      gpiod_line_settings_set_active_low(settings, options.active_low);
-      gpiod_line_config_add_line_settings(config, lines.offsets_.data(), lines.offsets_.size(), settings);
-      gpiod_request_config_set_consumer(request, kConsumer);
-      lines.request_.reset(gpiod_chip_request_lines(chip, request, config));
-    }
-    const int number = errno;
-    gpiod_request_config_free(request);
-    gpiod_line_config_free(config);
-    gpiod_line_settings_free(settings);
-    gpiod_chip_close(chip);
-    if (lines.request_ == nullptr) return line_error(number);
-    return lines;
-  }
-  std::size_t count() const { return offsets_.size(); }
-  bool set(std::size_t line, bool active) {
-    return gpiod_line_request_set_value(request_.get(), offsets_[line],
-                                        active ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE) == 0;
-  }
-
- private:
-  std::vector<unsigned> offsets_;
-  std::unique_ptr<gpiod_line_request, void (*)(gpiod_line_request*)> request_{nullptr,
-                                                                              gpiod_line_request_release};
-};
-
-#else
-
+// The lines of one chip, requested one by one.
 class Lines {
  public:
   static Result<Lines> request(const GpioOptions& options) {
@@ -138,8 +95,6 @@ class Lines {
   std::unique_ptr<gpiod_chip, void (*)(gpiod_chip*)> chip_{nullptr, gpiod_chip_close};
   std::vector<gpiod_line*> lines_;
 };
-
-#endif
 
 void set_all_inactive(Lines& lines) {
   for (std::size_t i = 0; i < lines.count(); ++i) (void)lines.set(i, false);

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "hal/recording/capture_file.h"
+#include "hal/recording/picture_pairs.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/replay_device.h"
 
@@ -36,8 +37,7 @@ class FolderSource final : public PairSource {
   // The recording's own lateness of each camera against the earlier of the two.
   std::chrono::nanoseconds lateness(const PicturePairFiles& pair, Side side) const {
     std::int64_t number = -1;
-    const char* digits = pair.rest.c_str() + (pair.rest.starts_with('_') ? 1 : 0);
-    std::from_chars(digits, pair.rest.c_str() + pair.rest.size(), number);
+    std::from_chars(pair.name.data(), pair.name.data() + pair.name.size(), number);
     for (const CaptureRecord& r : capture_.frames)
       if (r.number == number)
         return std::chrono::nanoseconds((side == Side::Left ? r.left_ns : r.right_ns) -

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <map>
 #include <system_error>
 #include <utility>
 
@@ -55,42 +54,6 @@ Result<void> FolderMedia::take_up_again() {
 bool FolderMedia::is_taken_up() {
   const std::lock_guard lock(mutex_);
   return taken_up_;
-}
-
-Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::directory_iterator entries(folder, failed);
-  if (failed)
-    return Error{Errc::NotFound, "there is no such folder of pictures", failed.value()}.at(folder.native());
-  std::map<std::string, PicturePairFiles> by_rest;  // sorted by name
-  for (const std::filesystem::directory_iterator end; entries != end && !failed; entries.increment(failed)) {
-    const std::filesystem::directory_entry& entry = *entries;
-    const std::string stem = entry.path().stem().native(), e = lower_extension(entry.path());
-    if ((e != ".png" && e != ".jpg" && e != ".jpeg") || !entry.is_regular_file(failed)) continue;
-    const bool left = stem.starts_with("left"), right = stem.starts_with("right");
-    if (!left && !right) continue;
-    const std::string rest = stem.substr(left ? 4 : 5);
-    PicturePairFiles& pair = by_rest[rest];
-    std::filesystem::path& mine = left ? pair.left : pair.right;
-    if (!mine.empty())
-      return invalid("two pictures share this name; keep one of them").at(entry.path().native());
-    mine = entry.path();
-    pair.rest = rest;
-  }
-  if (failed)
-    return Error{Errc::IoFailed, "this folder cannot be read to its end", failed.value()}.at(folder.native());
-  if (by_rest.empty())
-    return Error{Errc::NotFound, "this folder holds no left* and right* pictures (png or jpg)"}.at(
-        folder.native());
-  std::vector<PicturePairFiles> pairs;
-  for (auto& [rest, pair] : by_rest) {
-    if (pair.right.empty())
-      return invalid("this left picture has no right partner of the same name").at(pair.left.native());
-    if (pair.left.empty())
-      return invalid("this right picture has no left partner of the same name").at(pair.right.native());
-    pairs.push_back(std::move(pair));
-  }
-  return pairs;
 }
 
 Result<void> SilentTrigger::do_pulse(std::chrono::microseconds, Light) {

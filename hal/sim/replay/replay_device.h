@@ -44,16 +44,6 @@ class FolderMedia final : public RemovableMedia {
   bool taken_up_ = false;
 };
 
-// The left and right pictures of a folder, paired by what follows "left" and "right" in their
-// names, in name order. Errors: NotFound (no folder, no picture), InvalidInput (no partner).
-// Thread: any.
-struct PicturePairFiles {
-  std::filesystem::path left, right;
-  std::string rest;  // between "left" and the extension: "_000001"
-};
-
-Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder);
-
 // SilentTrigger: a trigger line without a wire. It counts pulses; cameras that hang on it expose
 // once for every pulse since they last did.
 // Thread: any.

@@ -57,7 +57,7 @@ class CalibrateReport : public ::testing::Test {
 
   test::TemporaryFolder here;
   BoardSimulator boards_;
-  std::vector<firmware::PicturePairFiles> pairs_;
+  std::vector<hal::PicturePairFiles> pairs_;
   pipeline::CalibratorOutput output_;
   KeptLines out_;
 };
