@@ -256,8 +256,8 @@ Result<void> run(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
   RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   if (args.verb == Verb::Import) return import(args, folder, services);
-  const bool writes =
-      args.verb == Verb::Erase || args.verb == Verb::Export;  // an export is a line of the log
+  // An export leaves a line of the store's log.
+  const bool writes = args.verb == Verb::Erase || args.verb == Verb::Export;
   RELIEVO_TRY_ASSIGN(const auto store,
                      writes ? open_kept_store(folder, services) : services.open_store(folder, false));
   if (args.verb == Verb::List) return list(*store, services.console);

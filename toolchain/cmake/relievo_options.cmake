@@ -135,7 +135,7 @@ function(relievo_test_options target)
   if(RELIEVO_SANITIZE)
     # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold. What a sanitizer
     # finds lies in the rooms: a fifth of the time to build a test is the lines of its own that a report would name, a
-    # third is checking its own temporaries after their end, and checks that are written out where a call does.
+    # quarter is looking at its own temporaries after their end, and checks that are written out where a call does.
     target_compile_options(${target} PRIVATE -g0 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
     if(RELIEVO_SANITIZE MATCHES address)
       target_compile_options(${target} PRIVATE -fno-sanitize-address-use-after-scope
