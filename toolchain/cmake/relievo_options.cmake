@@ -158,24 +158,21 @@ function(relievo_tests name)
   relievo_discover(test_${name} ${name})
 endfunction()
 
-# relievo_discover(TARGET ROOM): the tests of a program, for ctest: ROOM.SUITE.TEST. Under a sanitizer starting a program
-# costs more than most tests do: it is started sixteen times (ROOM.0 to ROOM.15), and runs every sixteenth of its tests
-# each time. The address sanitizer's are without those of tests/not_sanitized.txt.
+# relievo_discover(TARGET ROOM): the tests of a program, for ctest. Starting it costs more than most tests do: it is started
+# sixteen times (ROOM.0 to ROOM.15), and runs every sixteenth of its tests each time. The address sanitizer's are without
+# those of tests/not_sanitized.txt.
 set(not_sanitized ${CMAKE_SOURCE_DIR}/tests/not_sanitized.txt)
 function(relievo_discover target room)
-  if(NOT RELIEVO_SANITIZE)
-    gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES PROPERTIES TIMEOUT 900 DISCOVERY_TIMEOUT 60)
-    return()
-  endif()
   set(filter "*-")
-  set(timeout 7200)
+  set(timeout 1800)
   if(RELIEVO_SANITIZE MATCHES address)
-    set(timeout 1800)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${not_sanitized})
     file(STRINGS ${not_sanitized} lines REGEX "^${room} ")
     list(TRANSFORM lines REPLACE "^${room} " "")
     list(JOIN lines ":" lines)
     string(APPEND filter ${lines})
+  elseif(RELIEVO_SANITIZE)
+    set(timeout 7200)
   endif()
   foreach(shard RANGE 15)
     add_test(NAME ${room}.${shard} COMMAND ${target} --gtest_filter=${filter})
