@@ -31,8 +31,8 @@ MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at, std::span<const 
 // Lays the vertices with `free` 1 anew so that the surface bends as little as it can (a thin plate) and goes
 // on from the others, which stay, without a crease. With a tension it also stretches as little as it can:
 // what is wider than `tension_mm` does not bulge, and no vertex of a fold, whose cotangents cancel, flies off
-// as a needle; 0 for none. A vertex of no triangle stays. Throws std::runtime_error where the equations have
-// no solution.
+// as a needle; 0 for none. A vertex of no triangle stays; of what hangs together one vertex must not be free.
+// Throws std::runtime_error where the equations have no solution.
 void fair(std::span<Eigen::Vector3d> at, std::span<const Triangle> triangles, std::span<const char> free,
           double tension_mm = 0);
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory_resource>
 #include <set>
+#include <stdexcept>
 
 #include "pipeline/fuse/rim.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
@@ -198,6 +200,17 @@ TEST(Fairing, DoesNotBulgeOutOfAWideGap) {
   EXPECT_LT(top(15), 0.85 * top(0));
   EXPECT_LT(top(5), 0.85 * top(15));
   EXPECT_GT(top(15), 0.25 * top(0)) << "it still goes on as the slopes do";
+}
+
+TEST(Fairing, SaysWhenASurfaceCannotBeLaid) {
+  const Sheet sheet(0);
+  std::vector<Eigen::Vector3d> at;
+  for (const Vec3f& v : sheet.vertices) at.emplace_back(v.x, v.y, v.z);
+  std::vector<char> free(at.size(), 0);
+  free[kStepSide + 1] = 1;
+  at[1].z() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(fair(at, sheet.triangles, free), std::runtime_error);
+  EXPECT_EQ(at[kStepSide + 1], Eigen::Vector3d(1, 1, 0)) << "as it was";
 }
 
 }  // namespace

@@ -78,6 +78,23 @@ TEST(Rims, OfLargeHolesStayOpen) {
   EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1) - 6, 1e-3);
 }
 
+// Two triangles bent along their common edge: the least area across their rim is theirs over again.
+TEST(Rims, WhoseClosingNeedsAnEdgeThatIsThereStayOpenAndAreNamed) {
+  FaceMesh mesh = sheet([](int x, int y) { return x == 5 && y == 5; });
+  const auto p = std::uint32_t(mesh.vertices_mm.size()), r = p + 1, q = p + 2, s = p + 3;
+  for (const Vec3f& v : {Vec3f{5, 5, 9}, Vec3f{5.2F, 6, 9}, Vec3f{5.4F, 5, 9}, Vec3f{5.2F, 5, 10}})
+    mesh.vertices_mm.push_back(v);
+  mesh.triangles.push_back({p, r, q});
+  mesh.triangles.push_back({p, q, s});
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  auto left_open =
+      close_holes(mesh.vertices_mm, outwards(mesh), border, {15, mouths(0)}, mesh.triangles).left_open;
+  std::ranges::sort(left_open);
+  EXPECT_EQ(left_open, (std::vector<std::uint32_t>{p, r, q, s}));
+  EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSheetSide - 1) + 4U)
+      << "the outline and what stays open: the sheet's own hole is closed";
+}
+
 TEST(Rims, LoseTheBaysOfTheOutline) {
   // From the right edge a bay two cells wide and five deep; from the lower one a dent a cell deep, which is
   // none.
