@@ -47,25 +47,6 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
   return {};
 }
 
-}  // namespace
-
-Result<void> check_neighbours(const AlgorithmSet& set) {
-  const std::vector<OptionDescription> kinds = describe_algorithms();
-  const auto on_lattice = [&](std::string_view key) {
-    for (const OptionDescription& kind : kinds)
-      for (const AlgorithmDescription& algorithm : kind.algorithms)
-        if (kind.key == key && set.get(key) == algorithm.name) return algorithm.lattice;
-    return false;
-  };
-  if ((on_lattice("selector") && on_lattice("matcher")) || !on_lattice("mesher")) return {};
-  return invalid(
-             "this mesher joins neighbours of a lattice and these matches are scattered: choose mesher=delaunay, or selector=dense or grid-points and a matcher other than file-matches")
-      .at("selector=" + set.get("selector") + " matcher=" + set.get("matcher") +
-          " mesher=" + set.get("mesher"));
-}
-
-namespace {
-
 // Names what there is instead.
 Error unknown_key(std::string_view key, const std::vector<OptionDescription>& all) {
   const std::string_view section = key.substr(0, key.find('.'));
@@ -94,6 +75,21 @@ Error unknown_key(std::string_view key, const std::vector<OptionDescription>& al
 }
 
 }  // namespace
+
+Result<void> check_neighbours(const AlgorithmSet& set) {
+  const std::vector<OptionDescription> kinds = describe_algorithms();
+  const auto on_lattice = [&](std::string_view key) {
+    for (const OptionDescription& kind : kinds)
+      for (const AlgorithmDescription& algorithm : kind.algorithms)
+        if (kind.key == key && set.get(key) == algorithm.name) return algorithm.lattice;
+    return false;
+  };
+  if ((on_lattice("selector") && on_lattice("matcher")) || !on_lattice("mesher")) return {};
+  return invalid(
+             "this mesher joins neighbours of a lattice and these matches are scattered: choose mesher=delaunay, or selector=dense or grid-points and a matcher other than file-matches")
+      .at("selector=" + set.get("selector") + " matcher=" + set.get("matcher") +
+          " mesher=" + set.get("mesher"));
+}
 
 Result<void> AlgorithmSet::set(std::string_view key, std::string_view value) {
   const std::vector<OptionDescription> all = describe_algorithms();

@@ -114,35 +114,6 @@ float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uin
   return nearest.mean_distance();
 }
 
-}  // namespace
-
-Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
-  const Neighbourhood near(cloud, &context.scratch);
-  std::pmr::vector<float> distance(cloud.points.size(), kAlone, &context.scratch);
-  if (!near.for_each_point(context, [&](std::uint32_t i, int column, int row) {
-        distance[i] = mean_distance(cloud, near, i, column, row, neighbours);
-      }))
-    return stopped();
-  double n = 0;
-  double sum = 0;
-  double squares = 0;
-  for (const float d : distance) {
-    if (d == kAlone) continue;
-    n += 1;
-    sum += double(d);
-    squares += double(d) * double(d);
-  }
-  const double mean = sum / std::max(1.0, n);
-  const double limit = mean + deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (distance[i] != kAlone && double(distance[i]) <= limit) cloud.points[kept++] = cloud.points[i];
-  cloud.points.resize(kept);
-  return {};
-}
-
-namespace {
-
 struct Offset {
   float u, v, depth;
 };  // from the centre, in its RayFrame
@@ -302,6 +273,31 @@ class Filter {
 };
 
 }  // namespace
+
+Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
+  const Neighbourhood near(cloud, &context.scratch);
+  std::pmr::vector<float> distance(cloud.points.size(), kAlone, &context.scratch);
+  if (!near.for_each_point(context, [&](std::uint32_t i, int column, int row) {
+        distance[i] = mean_distance(cloud, near, i, column, row, neighbours);
+      }))
+    return stopped();
+  double n = 0;
+  double sum = 0;
+  double squares = 0;
+  for (const float d : distance) {
+    if (d == kAlone) continue;
+    n += 1;
+    sum += double(d);
+    squares += double(d) * double(d);
+  }
+  const double mean = sum / std::max(1.0, n);
+  const double limit = mean + deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (distance[i] != kAlone && double(distance[i]) <= limit) cloud.points[kept++] = cloud.points[i];
+  cloud.points.resize(kept);
+  return {};
+}
 
 Result<void> LocalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
   if (context.stop()) return stopped();

@@ -78,6 +78,16 @@ double skin_height(const HeadField& f, Vec3 p, double lip, double coarse) {
   return h;
 }
 
+// Cosine-weighted directions about a normal, stratified; turned by the hash.
+Vec3 sky_direction(Vec3 n, int i, int count, std::uint32_t hash) {
+  const double turn = unit_from_hash(hash);
+  const double r2 = (i + 0.5) / count, angle = 6.283185307179586 * (i * 0.6180339887498949 + turn);
+  const Vec3 side = normalised(cross(std::abs(n.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, n)),
+             up = cross(n, side);
+  const double r = std::sqrt(r2);
+  return side * (r * std::cos(angle)) + up * (r * std::sin(angle)) + n * std::sqrt(1 - r2);
+}
+
 }  // namespace
 
 Surface skin_look(const HeadField& f, Vec3 p) {
@@ -177,20 +187,6 @@ Surface shirt_look(const HeadTraits& t, Vec3 p) {
                        0.10 * value_noise(p * 1.1, t.seed + 71);
   return {kColours[std::size_t(t.shirt) % kColours.size()] * (1 + weave), 0.15, 0.7, 0};
 }
-
-namespace {
-
-// Cosine-weighted directions about a normal, stratified; turned by the hash.
-Vec3 sky_direction(Vec3 n, int i, int count, std::uint32_t hash) {
-  const double turn = unit_from_hash(hash);
-  const double r2 = (i + 0.5) / count, angle = 6.283185307179586 * (i * 0.6180339887498949 + turn);
-  const Vec3 side = normalised(cross(std::abs(n.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, n)),
-             up = cross(n, side);
-  const double r = std::sqrt(r2);
-  return side * (r * std::cos(angle)) + up * (r * std::sin(angle)) + n * std::sqrt(1 - r2);
-}
-
-}  // namespace
 
 void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {
   constexpr std::uint32_t kRings = 60, kSpokes = 120;

@@ -35,34 +35,6 @@ double white_share(const RectifiedView& view, const RectifiedPair& pair, const E
   return seen > 0 ? double(white) / double(seen) : 0;
 }
 
-}  // namespace
-
-Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& matches) {
-  if (pair.face_width_px <= 0) return {};
-  const Ellipse left = skin_at(pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px);
-  double sum = 0;
-  long count = 0;
-  for (const Match& m : matches.matches) {
-    if (m.rejected_by != 0 || !left.holds(double(m.left_px.x), double(m.left_px.y))) continue;
-    sum += double(m.disparity_px);
-    ++count;
-  }
-  Ellipse right = left;
-  right.x -= count > 0 ? sum / double(count) : 0;
-  return {white_share(pair.left, pair, left), white_share(pair.right, pair, right)};
-}
-
-Overexposure guess_overexposure(const RectifiedPair& pair) {
-  const double px_per_mm = pair.focal_px / ((pair.near_mm + pair.far_mm) / 2);
-  const double aside = px_per_mm * pair.baseline_mm / 2;
-  const auto share = [&](const RectifiedView& view, double x) {
-    return white_share(view, pair, skin_at(x, pair.height_px / 2.0, px_per_mm * kFaceWidthMm));
-  };
-  return {share(pair.left, pair.left_centre_px.x + aside), share(pair.right, pair.right_centre_px.x - aside)};
-}
-
-namespace {
-
 constexpr int kEvery = 4;               // pixels looked at for light
 constexpr float kDark = 24;             // grey: the brightest thousandth of a lit face is far above it
 constexpr double kTooMuchWhite = 0.25;  // share of what is lit, and of a face
@@ -181,30 +153,6 @@ std::optional<PairFault> fault_of_light(Light left, Light right) {
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCalibration& calibration,
-                                       const RectifierOptions& volume, StageContext& context) {
-  if (frame.left.empty() || frame.right.empty()) return std::nullopt;
-  Arena::Mark products(context.output);
-  Arena::Mark work(context.scratch);
-  if (const auto light = fault_of_light(judge_light(frame.left, &context.scratch),
-                                        judge_light(frame.right, &context.scratch)))
-    return light;
-  if (same_picture(frame, &context.scratch)) return PairFault::SamePicture;
-  const auto pair = volume.rectify(frame, calibration, context);
-  if (!pair) return std::nullopt;
-  // A white face before a dark wall is little of the picture, and all that matters of it.
-  const Overexposure white = guess_overexposure(*pair);
-  const auto judge = [](double share) { return share > kTooMuchWhite ? Light::Overexposed : Light::Good; };
-  if (const auto light = fault_of_light(judge(white.left), judge(white.right))) return light;
-  const Place middle = find_middle(*pair, &context.scratch);
-  return middle.alike > kAlike && std::abs(middle.dy) > kRowsApart ? std::optional(PairFault::Shifted)
-                                                                   : std::nullopt;
-}
-
-namespace {
-
 struct Words {
   Errc code;
   Literal what;
@@ -231,6 +179,50 @@ constexpr std::array<Words, 12> kWords{{
 static_assert(kWords.size() == std::size_t(PairFault::Swapped) + 1);
 
 }  // namespace
+
+Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& matches) {
+  if (pair.face_width_px <= 0) return {};
+  const Ellipse left = skin_at(pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px);
+  double sum = 0;
+  long count = 0;
+  for (const Match& m : matches.matches) {
+    if (m.rejected_by != 0 || !left.holds(double(m.left_px.x), double(m.left_px.y))) continue;
+    sum += double(m.disparity_px);
+    ++count;
+  }
+  Ellipse right = left;
+  right.x -= count > 0 ? sum / double(count) : 0;
+  return {white_share(pair.left, pair, left), white_share(pair.right, pair, right)};
+}
+
+Overexposure guess_overexposure(const RectifiedPair& pair) {
+  const double px_per_mm = pair.focal_px / ((pair.near_mm + pair.far_mm) / 2);
+  const double aside = px_per_mm * pair.baseline_mm / 2;
+  const auto share = [&](const RectifiedView& view, double x) {
+    return white_share(view, pair, skin_at(x, pair.height_px / 2.0, px_per_mm * kFaceWidthMm));
+  };
+  return {share(pair.left, pair.left_centre_px.x + aside), share(pair.right, pair.right_centre_px.x - aside)};
+}
+
+std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCalibration& calibration,
+                                       const RectifierOptions& volume, StageContext& context) {
+  if (frame.left.empty() || frame.right.empty()) return std::nullopt;
+  Arena::Mark products(context.output);
+  Arena::Mark work(context.scratch);
+  if (const auto light = fault_of_light(judge_light(frame.left, &context.scratch),
+                                        judge_light(frame.right, &context.scratch)))
+    return light;
+  if (same_picture(frame, &context.scratch)) return PairFault::SamePicture;
+  const auto pair = volume.rectify(frame, calibration, context);
+  if (!pair) return std::nullopt;
+  // A white face before a dark wall is little of the picture, and all that matters of it.
+  const Overexposure white = guess_overexposure(*pair);
+  const auto judge = [](double share) { return share > kTooMuchWhite ? Light::Overexposed : Light::Good; };
+  if (const auto light = fault_of_light(judge(white.left), judge(white.right))) return light;
+  const Place middle = find_middle(*pair, &context.scratch);
+  return middle.alike > kAlike && std::abs(middle.dy) > kRowsApart ? std::optional(PairFault::Shifted)
+                                                                   : std::nullopt;
+}
 
 Error error_of(PairFault fault) {
   const Words& words = kWords[std::size_t(fault)];

@@ -41,6 +41,20 @@ bool take_number(std::string_view& line, bool first, double& value) {
   return true;
 }
 
+Result<Match> match_of(const NumberLine& n, const RectifiedPair& windows, float sigma_px) {
+  const auto inside = [&windows](double x, double y) {
+    return x >= 0 && y >= 0 && x <= windows.width_px - 1 && y <= windows.height_px - 1;
+  };
+  if (n.count < 3 || !n.rest.empty())
+    return invalid("a match is x y disparity [sigma], numbers with blanks or commas between");
+  const auto [x, y, d, sigma] = n.value;
+  if (!inside(x, y)) return invalid("the place lies outside the left picture");
+  if (!inside(x - d, y)) return invalid("with this disparity the partner lies outside the right picture");
+  if (n.count == 4 && !(sigma > 0 && sigma <= 1000))
+    return invalid("sigma must be positive, at most 1000 pixels");
+  return Match{{float(x), float(y)}, float(d), 0, n.count == 4 ? float(sigma) : sigma_px, 0};
+}
+
 }  // namespace
 
 bool NumberLines::next(NumberLine& line) {
@@ -66,24 +80,6 @@ std::size_t lines_of(std::string_view text) { return std::size_t(std::ranges::co
 std::string line_name(const std::string& file, std::uint32_t line) {
   return file + ", line " + std::to_string(line);
 }
-
-namespace {
-
-Result<Match> match_of(const NumberLine& n, const RectifiedPair& windows, float sigma_px) {
-  const auto inside = [&windows](double x, double y) {
-    return x >= 0 && y >= 0 && x <= windows.width_px - 1 && y <= windows.height_px - 1;
-  };
-  if (n.count < 3 || !n.rest.empty())
-    return invalid("a match is x y disparity [sigma], numbers with blanks or commas between");
-  const auto [x, y, d, sigma] = n.value;
-  if (!inside(x, y)) return invalid("the place lies outside the left picture");
-  if (!inside(x - d, y)) return invalid("with this disparity the partner lies outside the right picture");
-  if (n.count == 4 && !(sigma > 0 && sigma <= 1000))
-    return invalid("sigma must be positive, at most 1000 pixels");
-  return Match{{float(x), float(y)}, float(d), 0, n.count == 4 ? float(sigma) : sigma_px, 0};
-}
-
-}  // namespace
 
 Result<std::pmr::vector<Match>> matches_in(std::string_view text, const std::string& file,
                                            const RectifiedPair& windows, float sigma_px,

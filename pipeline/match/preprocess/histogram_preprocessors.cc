@@ -31,6 +31,19 @@ struct Overlap {
   }
 };
 
+// By a monotone map, tabulated finely enough for the curves above; linear in between.
+template <typename Map>
+void map_greys(std::pmr::vector<float>& greys, ThreadPool& pool, const Map& map) {
+  constexpr int kPerLevel = 16;
+  std::array<float, 255 * kPerLevel + 1> table{};
+  for (std::size_t k = 0; k < table.size(); ++k) table[k] = float(map(double(k) / kPerLevel));
+  pool.for_each<std::size_t>(int(greys.size()), kBands, [&](std::size_t i) {
+    const float at = std::clamp(greys[i], 0.0F, 255.0F) * kPerLevel;
+    const auto k = std::min(std::size_t(at), table.size() - 2);
+    greys[i] = table[k] + (at - float(k)) * (table[k + 1] - table[k]);
+  });
+}
+
 }  // namespace
 
 GreyHistogram GreyHistogram::of(const std::pmr::vector<float>& grey, int width_px, int height_px,
@@ -74,23 +87,6 @@ double GreyHistogram::grey_at(double share) const {
   if (wanted >= double(count())) return crossing(first);  // the brightest
   return 0.5 * (crossing(first) + crossing(last));
 }
-
-namespace {
-
-// By a monotone map, tabulated finely enough for the curves above; linear in between.
-template <typename Map>
-void map_greys(std::pmr::vector<float>& greys, ThreadPool& pool, const Map& map) {
-  constexpr int kPerLevel = 16;
-  std::array<float, 255 * kPerLevel + 1> table{};
-  for (std::size_t k = 0; k < table.size(); ++k) table[k] = float(map(double(k) / kPerLevel));
-  pool.for_each<std::size_t>(int(greys.size()), kBands, [&](std::size_t i) {
-    const float at = std::clamp(greys[i], 0.0F, 255.0F) * kPerLevel;
-    const auto k = std::min(std::size_t(at), table.size() - 2);
-    greys[i] = table[k] + (at - float(k)) * (table[k + 1] - table[k]);
-  });
-}
-
-}  // namespace
 
 Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels(pair));

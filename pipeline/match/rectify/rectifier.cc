@@ -11,20 +11,6 @@
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
-
-void grey_row(const ImageView& image, int y, float* to) {
-  const std::uint8_t* from = image.row(y);
-  if (image.format == PixelFormat::Rgb8) {
-    for (int x = 0; x < image.width_px; ++x)
-      to[x] = float(from[3 * x] + from[3 * x + 1] + from[3 * x + 2]) * (1.0F / 3);
-  } else if (image.format == PixelFormat::Grey16) {
-    const auto* wide = reinterpret_cast<const std::uint16_t*>(from);
-    for (int x = 0; x < image.width_px; ++x) to[x] = float(wide[x]) * (1.0F / 257);
-  } else {
-    for (int x = 0; x < image.width_px; ++x) to[x] = float(from[x]);
-  }
-}
-
 namespace {
 
 struct Box {
@@ -182,7 +168,37 @@ Result<void> check_picture(const ImageView& image, const CameraIntrinsics& camer
   return {};
 }
 
+constexpr double kBaselineMm = 110;  // of the recommended rig; the focal length is the picture's width
+
+void take_view(const ImageView& image, RectifiedView& view, StageContext& context) {
+  const std::size_t pixels = std::size_t(image.width_px) * std::size_t(image.height_px);
+  view.grey.resize(pixels);
+  view.rgb.resize(3 * pixels);
+  view.valid.assign(pixels, 1);
+  context.pool.for_each(image.height_px, 16, [&](int y) {
+    std::uint8_t* to = view.rgb.data() + 3 * std::ptrdiff_t(y) * image.width_px;
+    float* grey = view.grey.data() + std::ptrdiff_t(y) * image.width_px;
+    grey_row(image, y, grey);
+    if (image.format == PixelFormat::Rgb8) std::copy_n(image.row(y), 3 * image.width_px, to);
+    else
+      for (int x = 0; x < image.width_px; ++x) std::fill_n(to + 3 * x, 3, std::uint8_t(grey[x]));
+  });
+}
+
 }  // namespace
+
+void grey_row(const ImageView& image, int y, float* to) {
+  const std::uint8_t* from = image.row(y);
+  if (image.format == PixelFormat::Rgb8) {
+    for (int x = 0; x < image.width_px; ++x)
+      to[x] = float(from[3 * x] + from[3 * x + 1] + from[3 * x + 2]) * (1.0F / 3);
+  } else if (image.format == PixelFormat::Grey16) {
+    const auto* wide = reinterpret_cast<const std::uint16_t*>(from);
+    for (int x = 0; x < image.width_px; ++x) to[x] = float(wide[x]) * (1.0F / 257);
+  } else {
+    for (int x = 0; x < image.width_px; ++x) to[x] = float(from[x]);
+  }
+}
 
 Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_from_camera, double focal_px,
                    Vec2d centre_px, Vec2d at) {
@@ -267,27 +283,6 @@ Result<RectifiedPair> RectifierOptions::rectify(const StereoFrame& frame,
   }
   return pair;
 }
-
-namespace {
-
-constexpr double kBaselineMm = 110;  // of the recommended rig; the focal length is the picture's width
-
-void take_view(const ImageView& image, RectifiedView& view, StageContext& context) {
-  const std::size_t pixels = std::size_t(image.width_px) * std::size_t(image.height_px);
-  view.grey.resize(pixels);
-  view.rgb.resize(3 * pixels);
-  view.valid.assign(pixels, 1);
-  context.pool.for_each(image.height_px, 16, [&](int y) {
-    std::uint8_t* to = view.rgb.data() + 3 * std::ptrdiff_t(y) * image.width_px;
-    float* grey = view.grey.data() + std::ptrdiff_t(y) * image.width_px;
-    grey_row(image, y, grey);
-    if (image.format == PixelFormat::Rgb8) std::copy_n(image.row(y), 3 * image.width_px, to);
-    else
-      for (int x = 0; x < image.width_px; ++x) std::fill_n(to + 3 * x, 3, std::uint8_t(grey[x]));
-  });
-}
-
-}  // namespace
 
 Result<void> DisparityRange::check() const {
   if (least_px >= -4096 && most_px <= 4096 && least_px < most_px) return {};

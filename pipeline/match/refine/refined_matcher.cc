@@ -58,57 +58,6 @@ void enlarge_view(const RectifiedView& from, int width, int height, RectifiedVie
 double larger(double at) { return 2 * at + 0.5; }
 double smaller(double at) { return (at - 0.5) / 2; }
 
-}  // namespace
-
-bool is_small_scene(const RectifiedPair& pair) {
-  return pair.region.empty() && static_cast<long>(pair.width_px) * pair.height_px <= kMostPixels;
-}
-
-RectifiedPair enlarge(const RectifiedPair& pair, std::pmr::memory_resource* memory) {
-  RectifiedPair made(memory);
-  made.width_px = 2 * pair.width_px;
-  made.height_px = 2 * pair.height_px;
-  made.focal_px = 2 * pair.focal_px;
-  made.baseline_mm = pair.baseline_mm;
-  made.left_centre_px = {larger(pair.left_centre_px.x), larger(pair.left_centre_px.y)};
-  made.right_centre_px = {larger(pair.right_centre_px.x), larger(pair.right_centre_px.y)};
-  made.near_mm = pair.near_mm;
-  made.far_mm = pair.far_mm;
-  made.rectified_from_left = pair.rectified_from_left;
-  made.rectified_from_right = pair.rectified_from_right;
-  made.right_from_left = pair.right_from_left;
-  enlarge_view(pair.left, pair.width_px, pair.height_px, made.left);
-  enlarge_view(pair.right, pair.width_px, pair.height_px, made.right);
-  return made;
-}
-
-Keypoints enlarge(const Keypoints& keypoints, std::pmr::memory_resource* memory) {
-  Keypoints made(memory);
-  made.lattice_step_px = 2 * keypoints.lattice_step_px;
-  made.points.assign(keypoints.points.begin(), keypoints.points.end());
-  for (Keypoint& point : made.points) point.at_px = {2 * point.at_px.x + 0.5F, 2 * point.at_px.y + 0.5F};
-  return made;
-}
-
-void shrink(MatchSet& matches, int lattice_step_px) {
-  for (Match& match : matches.matches) {
-    match.left_px = {(match.left_px.x - 0.5F) / 2, (match.left_px.y - 0.5F) / 2};
-    match.disparity_px /= 2;
-    match.sigma_px *= kSigma;
-  }
-  EpipolarShift& shift = matches.epipolar_shift;
-  shift.middle_x_px = smaller(shift.middle_x_px);
-  shift.middle_y_px = smaller(shift.middle_y_px);
-  for (double* length :
-       {&shift.offset_px, &shift.spread_x_px, &shift.spread_y_px, &shift.residual_px, &shift.sigma_px})
-    *length /= 2;
-  for (double& v : shift.covariance_px2) v /= 4;
-  matches.motion_px /= 2;
-  matches.lattice_step_px = lattice_step_px;
-}
-
-namespace {
-
 constexpr int kLevels = 4;
 constexpr int kNodeStepPx = 2;  // the final lattice
 // Rows that disagree by half a pixel of a quarter of the size mislead the coarse surface: once more.
@@ -261,6 +210,53 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
 }
 
 }  // namespace
+
+bool is_small_scene(const RectifiedPair& pair) {
+  return pair.region.empty() && static_cast<long>(pair.width_px) * pair.height_px <= kMostPixels;
+}
+
+RectifiedPair enlarge(const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+  RectifiedPair made(memory);
+  made.width_px = 2 * pair.width_px;
+  made.height_px = 2 * pair.height_px;
+  made.focal_px = 2 * pair.focal_px;
+  made.baseline_mm = pair.baseline_mm;
+  made.left_centre_px = {larger(pair.left_centre_px.x), larger(pair.left_centre_px.y)};
+  made.right_centre_px = {larger(pair.right_centre_px.x), larger(pair.right_centre_px.y)};
+  made.near_mm = pair.near_mm;
+  made.far_mm = pair.far_mm;
+  made.rectified_from_left = pair.rectified_from_left;
+  made.rectified_from_right = pair.rectified_from_right;
+  made.right_from_left = pair.right_from_left;
+  enlarge_view(pair.left, pair.width_px, pair.height_px, made.left);
+  enlarge_view(pair.right, pair.width_px, pair.height_px, made.right);
+  return made;
+}
+
+Keypoints enlarge(const Keypoints& keypoints, std::pmr::memory_resource* memory) {
+  Keypoints made(memory);
+  made.lattice_step_px = 2 * keypoints.lattice_step_px;
+  made.points.assign(keypoints.points.begin(), keypoints.points.end());
+  for (Keypoint& point : made.points) point.at_px = {2 * point.at_px.x + 0.5F, 2 * point.at_px.y + 0.5F};
+  return made;
+}
+
+void shrink(MatchSet& matches, int lattice_step_px) {
+  for (Match& match : matches.matches) {
+    match.left_px = {(match.left_px.x - 0.5F) / 2, (match.left_px.y - 0.5F) / 2};
+    match.disparity_px /= 2;
+    match.sigma_px *= kSigma;
+  }
+  EpipolarShift& shift = matches.epipolar_shift;
+  shift.middle_x_px = smaller(shift.middle_x_px);
+  shift.middle_y_px = smaller(shift.middle_y_px);
+  for (double* length :
+       {&shift.offset_px, &shift.spread_x_px, &shift.spread_y_px, &shift.residual_px, &shift.sigma_px})
+    *length /= 2;
+  for (double& v : shift.covariance_px2) v /= 4;
+  matches.motion_px /= 2;
+  matches.lattice_step_px = lattice_step_px;
+}
 
 Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {

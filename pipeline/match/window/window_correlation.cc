@@ -40,61 +40,6 @@ struct Sampler {
   bool inside_;
 };
 
-}  // namespace
-
-std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, double least_px, double most_px,
-                                  int radius) {
-  const double wide = pair.width_px;
-  const int first = int(std::ceil(std::clamp(least_px, -wide, wide))),
-            last = int(std::floor(std::clamp(most_px, -wide, wide)));
-  const auto alike = [&](int disparity) {
-    return window_correlation(pair, left_px, {left_px.x - float(disparity), left_px.y}, radius);
-  };
-  double best = 0;
-  int at = first;
-  for (int d = first; d <= last; ++d)
-    if (const double here = alike(d); here > best) best = here, at = d;
-  if (at == first || at >= last) return std::nullopt;
-  const double before = alike(at - 1), after = alike(at + 1), bend = 2 * best - before - after;
-  if (!(bend > 0)) return std::nullopt;
-  const double samples = (2 * radius + 1) * (2 * radius + 1);
-  const double unlike = std::max(1 - best, 1e-6 * bend);
-  return Match{
-      left_px, float(at + (after - before) / (2 * bend)), float(1 - best),
-      float(std::hypot(std::sqrt(2 * unlike / (samples * bend)), method_bias_px(pair, 2 * radius + 1))), 0};
-}
-
-double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_px, int radius) {
-  if (!std::isfinite(left_px.x + left_px.y + right_px.x + right_px.y) || std::abs(left_px.x) > 1e6F ||
-      std::abs(right_px.x) > 1e6F || std::abs(left_px.y) > 1e6F || std::abs(right_px.y) > 1e6F)
-    return 0;
-  const Sampler left(pair, pair.left, left_px, radius);
-  const Sampler right(pair, pair.right, right_px, radius);
-  if (!left.inside() || !right.inside()) return 0;
-  double l = 0, r = 0, ll = 0, rr = 0, lr = 0;
-  for (int j = -radius; j <= radius; ++j)
-    for (int i = -radius; i <= radius; ++i) {
-      double a = 0;
-      double b = 0;
-      if (!left.at(i, j, a) || !right.at(i, j, b)) return 0;
-      l += a;
-      r += b;
-      ll += a * a;
-      rr += b * b;
-      lr += a * b;
-    }
-  const double n = (2 * radius + 1) * (2 * radius + 1);
-  const double scale = std::sqrt(std::max(0.0, ll - l * l / n) * std::max(0.0, rr - r * r / n));
-  return scale > 1e-3 * n ? std::clamp((lr - l * r / n) / scale, -1.0, 1.0) : 0;
-}
-
-float window_cost(const RectifiedPair& pair, Vec2f left_px, float disparity_px, int radius) {
-  return float(std::clamp(
-      1 - window_correlation(pair, left_px, {left_px.x - disparity_px, left_px.y}, radius), 0.0, 1.0));
-}
-
-namespace {
-
 constexpr float kSameSurface = 2;
 
 float scatter_about_plane(const Plane<float>& field, int x, int y) {
@@ -165,6 +110,57 @@ FieldReading read_disparity(const Plane<float>& field, Vec2f at) {
 }
 
 }  // namespace
+
+std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, double least_px, double most_px,
+                                  int radius) {
+  const double wide = pair.width_px;
+  const int first = int(std::ceil(std::clamp(least_px, -wide, wide))),
+            last = int(std::floor(std::clamp(most_px, -wide, wide)));
+  const auto alike = [&](int disparity) {
+    return window_correlation(pair, left_px, {left_px.x - float(disparity), left_px.y}, radius);
+  };
+  double best = 0;
+  int at = first;
+  for (int d = first; d <= last; ++d)
+    if (const double here = alike(d); here > best) best = here, at = d;
+  if (at == first || at >= last) return std::nullopt;
+  const double before = alike(at - 1), after = alike(at + 1), bend = 2 * best - before - after;
+  if (!(bend > 0)) return std::nullopt;
+  const double samples = (2 * radius + 1) * (2 * radius + 1);
+  const double unlike = std::max(1 - best, 1e-6 * bend);
+  return Match{
+      left_px, float(at + (after - before) / (2 * bend)), float(1 - best),
+      float(std::hypot(std::sqrt(2 * unlike / (samples * bend)), method_bias_px(pair, 2 * radius + 1))), 0};
+}
+
+double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_px, int radius) {
+  if (!std::isfinite(left_px.x + left_px.y + right_px.x + right_px.y) || std::abs(left_px.x) > 1e6F ||
+      std::abs(right_px.x) > 1e6F || std::abs(left_px.y) > 1e6F || std::abs(right_px.y) > 1e6F)
+    return 0;
+  const Sampler left(pair, pair.left, left_px, radius);
+  const Sampler right(pair, pair.right, right_px, radius);
+  if (!left.inside() || !right.inside()) return 0;
+  double l = 0, r = 0, ll = 0, rr = 0, lr = 0;
+  for (int j = -radius; j <= radius; ++j)
+    for (int i = -radius; i <= radius; ++i) {
+      double a = 0;
+      double b = 0;
+      if (!left.at(i, j, a) || !right.at(i, j, b)) return 0;
+      l += a;
+      r += b;
+      ll += a * a;
+      rr += b * b;
+      lr += a * b;
+    }
+  const double n = (2 * radius + 1) * (2 * radius + 1);
+  const double scale = std::sqrt(std::max(0.0, ll - l * l / n) * std::max(0.0, rr - r * r / n));
+  return scale > 1e-3 * n ? std::clamp((lr - l * r / n) / scale, -1.0, 1.0) : 0;
+}
+
+float window_cost(const RectifiedPair& pair, Vec2f left_px, float disparity_px, int radius) {
+  return float(std::clamp(
+      1 - window_correlation(pair, left_px, {left_px.x - disparity_px, left_px.y}, radius), 0.0, 1.0));
+}
 
 Result<MatchSet> matches_in_field(const DisparityField& field, const RectifiedPair& pair,
                                   const Keypoints& keypoints, StageContext& context) {

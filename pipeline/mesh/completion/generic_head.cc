@@ -47,30 +47,6 @@ Taps taps_at(double share, int cells) {
 
 constexpr std::size_t kCells = std::size_t{kHeadColumns} * kHeadRows;
 
-}  // namespace
-
-Result<GenericHead> read_generic_head(std::span<const std::byte> file) {
-  const Error none{
-      Errc::InvalidInput,
-      "generic_head.bin is no generic head of this program's size: make it anew (make_generic_head)"};
-  constexpr std::size_t kCounts = (kHeadModes + 2) * (kCells + kGlobeNodes);
-  GenericHeadHeader header{};
-  if (file.size() != sizeof(header) + kCounts * sizeof(std::int16_t)) return none;
-  std::memcpy(&header, file.data(), sizeof(header));
-  if (header != kGenericHeadHeader) return none;
-  const auto* next = reinterpret_cast<const std::int16_t*>(file.data() + sizeof(header));
-  const auto take = [&](std::size_t count) { return std::span(std::exchange(next, next + count), count); };
-  const auto radii = [&](std::size_t cells) {
-    return HeadRadii{take(cells), take(kHeadModes * cells), take(cells)};
-  };
-  const HeadRadii face = radii(kCells);
-  return GenericHead{face, radii(kGlobeNodes)};
-}
-
-std::span<const std::byte> generic_head_file() { return {relievo_generic_head, relievo_generic_head_end}; }
-
-namespace {
-
 constexpr int kRelaxRounds = 150;
 
 ReliefBox box_of(double cell_mm) { return {-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}; }
@@ -111,41 +87,6 @@ Vec3f unrolled(const Vec3d& in_head) {
   const double z = in_head.z + kAxisBehind;
   return {float(kArcRadius * std::atan2(in_head.x, z)), float(in_head.y), float(std::hypot(in_head.x, z))};
 }
-
-}  // namespace
-
-Vec3d rolled(double arc, double y, double radius) {
-  const double angle = arc / kArcRadius;
-  return {radius * std::sin(angle), y, radius * std::cos(angle) - kAxisBehind};
-}
-
-UnrolledHead::UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell,
-                           Arena& scratch)
-    : cell_mm(cell),
-      flat(laid_flat(mesh, scratch,
-                     [&](const Vec3f& v) { return unrolled(apply(head_from_camera, wide(v))); })),
-      own(box_of(cell), &scratch),
-      added(box_of(cell), &scratch),
-      away(box_of(cell), &scratch) {
-  own.add(flat, {}, true);  // gaps that the mesher closed are surface here
-}
-
-void UnrolledHead::add_other_side(Arena& scratch) {
-  FaceRelief shift(box_of(cell_mm), &scratch);
-  for (int r = 0; r < own.rows(); ++r)
-    for (int c = 0; c < own.columns(); ++c) {
-      const float value = own.z(own.columns() - 1 - c, r);
-      if (std::isnan(value)) continue;
-      if (has_own(c, r)) shift.z(c, r) = std::clamp(own.z(c, r) - value, -4.0F, 4.0F);
-      else added.z(c, r) = value, shift.z(c, r) = 0;
-    }
-  relax(added, shift);
-  for (int r = 0; r < own.rows(); ++r)
-    for (int c = 0; c < own.columns(); ++c) added.z(c, r) += shift.z(c, r);
-  measure_distance(*this);
-}
-
-namespace {
 
 const GenericHead& generic_head() {
   static const GenericHead head = [] {
@@ -226,6 +167,57 @@ constexpr double kBelowLips = -35;  // y: a jaw is looked for from here down
 constexpr float kSteepest = 1.0F;
 
 }  // namespace
+
+Result<GenericHead> read_generic_head(std::span<const std::byte> file) {
+  const Error none{
+      Errc::InvalidInput,
+      "generic_head.bin is no generic head of this program's size: make it anew (make_generic_head)"};
+  constexpr std::size_t kCounts = (kHeadModes + 2) * (kCells + kGlobeNodes);
+  GenericHeadHeader header{};
+  if (file.size() != sizeof(header) + kCounts * sizeof(std::int16_t)) return none;
+  std::memcpy(&header, file.data(), sizeof(header));
+  if (header != kGenericHeadHeader) return none;
+  const auto* next = reinterpret_cast<const std::int16_t*>(file.data() + sizeof(header));
+  const auto take = [&](std::size_t count) { return std::span(std::exchange(next, next + count), count); };
+  const auto radii = [&](std::size_t cells) {
+    return HeadRadii{take(cells), take(kHeadModes * cells), take(cells)};
+  };
+  const HeadRadii face = radii(kCells);
+  return GenericHead{face, radii(kGlobeNodes)};
+}
+
+std::span<const std::byte> generic_head_file() { return {relievo_generic_head, relievo_generic_head_end}; }
+
+Vec3d rolled(double arc, double y, double radius) {
+  const double angle = arc / kArcRadius;
+  return {radius * std::sin(angle), y, radius * std::cos(angle) - kAxisBehind};
+}
+
+UnrolledHead::UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell,
+                           Arena& scratch)
+    : cell_mm(cell),
+      flat(laid_flat(mesh, scratch,
+                     [&](const Vec3f& v) { return unrolled(apply(head_from_camera, wide(v))); })),
+      own(box_of(cell), &scratch),
+      added(box_of(cell), &scratch),
+      away(box_of(cell), &scratch) {
+  own.add(flat, {}, true);  // gaps that the mesher closed are surface here
+}
+
+void UnrolledHead::add_other_side(Arena& scratch) {
+  FaceRelief shift(box_of(cell_mm), &scratch);
+  for (int r = 0; r < own.rows(); ++r)
+    for (int c = 0; c < own.columns(); ++c) {
+      const float value = own.z(own.columns() - 1 - c, r);
+      if (std::isnan(value)) continue;
+      if (has_own(c, r)) shift.z(c, r) = std::clamp(own.z(c, r) - value, -4.0F, 4.0F);
+      else added.z(c, r) = value, shift.z(c, r) = 0;
+    }
+  relax(added, shift);
+  for (int r = 0; r < own.rows(); ++r)
+    for (int c = 0; c < own.columns(); ++c) added.z(c, r) += shift.z(c, r);
+  measure_distance(*this);
+}
 
 void fit_generic_face(UnrolledHead& head, double misfit_mm) {
   const Fit fit = fit_modes(head, misfit_mm);

@@ -173,16 +173,6 @@ class GapCloser {
       was_gap_{lattice_.size(), 0, memory_}, large_{lattice_.size(), 0, memory_};
 };
 
-}  // namespace
-
-void close_gaps(PointLattice& lattice, const LatticeLimits& limits, MaskShaper& shaper,
-                std::pmr::memory_resource* memory) {
-  if (limits.max_gap_mm <= 0) return;
-  GapCloser(lattice, limits, shaper, memory).close();
-}
-
-namespace {
-
 constexpr float kSlopeRadiusMm = 1.5F;         // a cell's slope is the mean so far around it
 constexpr float kGiven = 0.5F, kKept = 0.34F;  // of what lies around, so much must be in to gain a cell, or
                                                // to keep one: what was measured weighs more
@@ -231,6 +221,12 @@ void grow(PointLattice& l, const CellMask& before, const CellMask& wanted, float
 }
 
 }  // namespace
+
+void close_gaps(PointLattice& lattice, const LatticeLimits& limits, MaskShaper& shaper,
+                std::pmr::memory_resource* memory) {
+  if (limits.max_gap_mm <= 0) return;
+  GapCloser(lattice, limits, shaper, memory).close();
+}
 
 CellMask steep_cells(const PointLattice& l, float max_slope, const Vec3f& from_mm,
                      std::pmr::memory_resource* memory) {

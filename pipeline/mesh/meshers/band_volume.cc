@@ -220,6 +220,23 @@ class Walker {
   Polygonised result_{memory_};
 };
 
+// Of the voxels about a point along one axis: how far each lies from it, and the Gaussian's factor.
+struct AxisNear {
+  static constexpr int kMost = 12;
+  int first = 0, count = 0;
+  std::array<float, kMost> from_mm{}, factor{};
+
+  AxisNear(float at_mm, float corner_mm, float voxel_mm, float radius_mm) {
+    const float at = (at_mm - corner_mm) / voxel_mm, reach = radius_mm / voxel_mm;
+    first = int(at - reach) + 1;
+    for (; count < kMost && float(first + count) <= at + reach; ++count) {
+      const float voxels = float(first + count) - at;
+      from_mm[std::size_t(count)] = voxel_mm * voxels;
+      factor[std::size_t(count)] = std::exp(-voxels * voxels / 2);
+    }
+  }
+};
+
 }  // namespace
 
 BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int margin,
@@ -241,27 +258,6 @@ BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int marg
                       std::numeric_limits<float>::quiet_NaN());
   return volume;
 }
-
-namespace {
-
-// Of the voxels about a point along one axis: how far each lies from it, and the Gaussian's factor.
-struct AxisNear {
-  static constexpr int kMost = 12;
-  int first = 0, count = 0;
-  std::array<float, kMost> from_mm{}, factor{};
-
-  AxisNear(float at_mm, float corner_mm, float voxel_mm, float radius_mm) {
-    const float at = (at_mm - corner_mm) / voxel_mm, reach = radius_mm / voxel_mm;
-    first = int(at - reach) + 1;
-    for (; count < kMost && float(first + count) <= at + reach; ++count) {
-      const float voxels = float(first + count) - at;
-      from_mm[std::size_t(count)] = voxel_mm * voxels;
-      factor[std::size_t(count)] = std::exp(-voxels * voxels / 2);
-    }
-  }
-};
-
-}  // namespace
 
 // A band of slices each: every voxel sees the points in their order.
 void fill_field(std::span<const FieldPoint> points, float radius_mm, BandVolume& volume,

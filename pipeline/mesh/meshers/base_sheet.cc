@@ -49,6 +49,11 @@ std::pmr::vector<std::optional<Carried>> carry_over(const FaceMesh& base, std::s
   return carried;
 }
 
+constexpr float kReachEdges = 1.2F;  // how many usual edges a node may lie from a measured point ...
+constexpr float kDisagreeMm = 0.5F;  // ... and how far from the surface around it
+constexpr float kDisagreeSigmas = 4;
+constexpr int kBands = 64;
+
 }  // namespace
 
 NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_resource* memory)
@@ -137,15 +142,6 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   context.progress.done.store(1, std::memory_order_relaxed);
   return mesh;
 }
-
-namespace {
-
-constexpr float kReachEdges = 1.2F;  // how many usual edges a node may lie from a measured point ...
-constexpr float kDisagreeMm = 0.5F;  // ... and how far from the surface around it
-constexpr float kDisagreeSigmas = 4;
-constexpr int kBands = 64;
-
-}  // namespace
 
 DepthSamples sample_depths(const FaceMesh& base, std::pmr::memory_resource* memory) {
   DepthSamples samples(memory);

@@ -63,40 +63,6 @@ Moments weighted_moments(const Chart& chart, const ShotPlanes& planes, std::size
   return m;
 }
 
-}  // namespace
-
-ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes) {
-  constexpr double kTukey = 4.685;
-  constexpr double kLeastSpread = 6;  // grey levels: below, skin is too even to tell gain from offset
-  ExposureMatch match;
-  for (std::size_t c = 0; c < 3; ++c) {
-    Moments m = weighted_moments(chart, planes, c, 1, 0, 1e9);
-    if (m.weight < 100) continue;
-    double gain = std::clamp(m.l / m.r, 0.25, 4.0);
-    double offset = 0;
-    double sigma = 0;
-    for (int round = 0; round < kRounds; ++round) {
-      sigma = std::max(robust_sigma(chart, planes, c, gain, offset), 0.5);
-      m = weighted_moments(chart, planes, c, gain, offset, kTukey * sigma);
-      if (m.weight < 100) break;
-      const double l = m.l / m.weight;
-      const double r = m.r / m.weight;
-      const double spread_l = std::sqrt(std::max(m.ll / m.weight - l * l, 0.0));
-      const double spread_r = std::sqrt(std::max(m.rr / m.weight - r * r, 0.0));
-      const bool tells = spread_r > kLeastSpread && spread_l > kLeastSpread &&
-                         m.lr / m.weight - l * r > 0.5 * spread_l * spread_r;
-      gain = std::clamp(tells ? spread_l / spread_r : l / r, 0.25, 4.0);
-      offset = tells ? std::clamp(l - gain * r, -64.0, 64.0) : 0.0;
-    }
-    match.gain[c] = float(gain);
-    match.offset[c] = float(offset);
-    match.sigma[c] = float(sigma);
-  }
-  return match;
-}
-
-namespace {
-
 constexpr int kLevelCell = 16;  // texels a cell and side
 
 // Weighted means with the neighbours (binomial, twice): normalised convolution.
@@ -136,6 +102,36 @@ Plane<Level> extended(const Plane<LevelSum>& cells, std::pmr::memory_resource* m
 }
 
 }  // namespace
+
+ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes) {
+  constexpr double kTukey = 4.685;
+  constexpr double kLeastSpread = 6;  // grey levels: below, skin is too even to tell gain from offset
+  ExposureMatch match;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Moments m = weighted_moments(chart, planes, c, 1, 0, 1e9);
+    if (m.weight < 100) continue;
+    double gain = std::clamp(m.l / m.r, 0.25, 4.0);
+    double offset = 0;
+    double sigma = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      sigma = std::max(robust_sigma(chart, planes, c, gain, offset), 0.5);
+      m = weighted_moments(chart, planes, c, gain, offset, kTukey * sigma);
+      if (m.weight < 100) break;
+      const double l = m.l / m.weight;
+      const double r = m.r / m.weight;
+      const double spread_l = std::sqrt(std::max(m.ll / m.weight - l * l, 0.0));
+      const double spread_r = std::sqrt(std::max(m.rr / m.weight - r * r, 0.0));
+      const bool tells = spread_r > kLeastSpread && spread_l > kLeastSpread &&
+                         m.lr / m.weight - l * r > 0.5 * spread_l * spread_r;
+      gain = std::clamp(tells ? spread_l / spread_r : l / r, 0.25, 4.0);
+      offset = tells ? std::clamp(l - gain * r, -64.0, 64.0) : 0.0;
+    }
+    match.gain[c] = float(gain);
+    match.offset[c] = float(offset);
+    match.sigma[c] = float(sigma);
+  }
+  return match;
+}
 
 Plane<Level> measure_levels(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
                             std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory) {

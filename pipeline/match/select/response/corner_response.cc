@@ -100,6 +100,24 @@ void choose_spread(Candidates& candidates, double min_distance, int max_points, 
   }
 }
 
+// Products of the gradient (Sobel's); 0 along the picture's edge.
+void products(const std::pmr::vector<float>& grey, ThreadPool& pool, Plane<float>& xx, Plane<float>& xy,
+              Plane<float>& yy) {
+  pool.for_each(xx.height - 2, kBands, [&](int above) {
+    const int y = above + 1;
+    const float* here = grey.data() + std::ptrdiff_t(y) * xx.width;
+    for (int x = 1; x + 1 < xx.width; ++x) {
+      const float *up = here - xx.width, *low = here + xx.width;
+      const float left = up[x - 1] + 2 * here[x - 1] + low[x - 1];
+      const float right = up[x + 1] + 2 * here[x + 1] + low[x + 1];
+      const float top = up[x - 1] + 2 * up[x] + up[x + 1];
+      const float bottom = low[x - 1] + 2 * low[x] + low[x + 1];
+      const Vec2f g{0.125F * (right - left), 0.125F * (bottom - top)};
+      xx.row(y)[x] = g.x * g.x, xy.row(y)[x] = g.x * g.y, yy.row(y)[x] = g.y * g.y;
+    }
+  });
+}
+
 }  // namespace
 
 Selectable::Selectable(const RectifiedPair& pair, std::pmr::memory_resource* memory)
@@ -193,28 +211,6 @@ Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, cons
   each_node([&](int x, int y) { keypoints.points.push_back({{float(x), float(y)}, 1}); });
   return keypoints;
 }
-
-namespace {
-
-// Products of the gradient (Sobel's); 0 along the picture's edge.
-void products(const std::pmr::vector<float>& grey, ThreadPool& pool, Plane<float>& xx, Plane<float>& xy,
-              Plane<float>& yy) {
-  pool.for_each(xx.height - 2, kBands, [&](int above) {
-    const int y = above + 1;
-    const float* here = grey.data() + std::ptrdiff_t(y) * xx.width;
-    for (int x = 1; x + 1 < xx.width; ++x) {
-      const float *up = here - xx.width, *low = here + xx.width;
-      const float left = up[x - 1] + 2 * here[x - 1] + low[x - 1];
-      const float right = up[x + 1] + 2 * here[x + 1] + low[x + 1];
-      const float top = up[x - 1] + 2 * up[x] + up[x + 1];
-      const float bottom = low[x - 1] + 2 * low[x] + low[x + 1];
-      const Vec2f g{0.125F * (right - left), 0.125F * (bottom - top)};
-      xx.row(y)[x] = g.x * g.x, xy.row(y)[x] = g.x * g.y, yy.row(y)[x] = g.y * g.y;
-    }
-  });
-}
-
-}  // namespace
 
 SalientTracks::SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales,
                              std::pmr::memory_resource* memory)
