@@ -7,10 +7,9 @@
 //                                           |
 //                                       next_frame()
 //
-// The base class checks the state once, for every backend; a call out of turn
-// returns Errc::InvalidState and names both. Backends implement do_*() only.
-// A camera that has vanished is closed and opened again: nothing else brings it back.
-// Thread: capture.
+// The base class checks the state once, for every backend; a call out of turn returns Errc::InvalidState and
+// names both. Backends implement do_*() only. A camera that has vanished is closed and opened again: nothing
+// else brings it back. Thread: capture.
 #pragma once
 
 #include <cstddef>

@@ -17,8 +17,7 @@ class Clock {
   virtual std::chrono::system_clock::time_point wall_now() const = 0;
 };
 
-// MonotonicClock: the machine's own time; the clock of every device that runs in real time.
-// Thread: any.
+// MonotonicClock: the machine's own time; the clock of every device that runs in real time. Thread: any.
 class MonotonicClock final : public Clock {
  public:
   Instant now() const override { return std::chrono::steady_clock::now(); }

@@ -3,10 +3,9 @@
 //
 // TriggerLine: the wire that makes both sensors expose together, and the lamp's that may flash with it.
 //
-// The base class, not the caller, keeps the light harmless: of pulses with light, the fourth within a
-// second is refused and drives nothing (FlashGuard); a lamp that hangs on the trigger's own wire
-// counts with every pulse. A pulse that failed counts too: light may have come.
-// Thread: any; pulses wait for one another.
+// The base class, not the caller, keeps the light harmless: of pulses with light, the fourth within a second
+// is refused and drives nothing (FlashGuard); a lamp that hangs on the trigger's own wire counts with every
+// pulse. A pulse that failed counts too: light may have come. Thread: any; pulses wait for one another.
 #pragma once
 
 #include <algorithm>

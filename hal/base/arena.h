@@ -3,9 +3,8 @@
 //
 // Arena: one block of memory, taken at boot, given out front to back.
 //
-// Freeing is a no-op; reset() takes everything back at once and wipe() zeroes
-// it first. Exhaustion throws std::bad_alloc, which run_stage() turns into
-// Errc::OutOfMemory: no caller ever sees the exception.
+// Freeing is a no-op; reset() takes everything back at once and wipe() zeroes it first. Exhaustion throws
+// std::bad_alloc, which run_stage() turns into Errc::OutOfMemory: no caller ever sees the exception.
 #pragma once
 
 #include <cstddef>

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ThreadPool: a fixed set of threads, made at boot. for_each_band() cuts [0, count) into bands and
-// calls the work once per band; it returns when all are done. The bands depend on `count` and
-// `bands` only, never on the number of threads, so results do not either.
-// A stage calls it a thousand times for a fraction of a millisecond each, and to wake a sleeping thread costs
-// tens of microseconds: who waits looks again for a moment (kLooks) before it sleeps.
-// Errors: the first exception thrown inside a band is rethrown in the caller.
-// Thread: one caller at a time (the worker).
+// ThreadPool: a fixed set of threads, made at boot. for_each_band() cuts [0, count) into bands and calls the
+// work once per band; it returns when all are done. The bands depend on `count` and `bands` only, never on
+// the number of threads, so results do not either. A stage calls it a thousand times for a fraction of a
+// millisecond each, and to wake a sleeping thread costs tens of microseconds: who waits looks again for a
+// moment (kLooks) before it sleeps. Errors: the first exception thrown inside a band is rethrown in the
+// caller. Thread: one caller at a time (the worker).
 #pragma once
 
 #include <atomic>

@@ -23,10 +23,9 @@
 
 namespace relievo::hal {
 
-// Colour out of a mosaic, of YUV and of JPEG, into width_px * 3 bytes a row without padding.
-// Shapes and room are checked before, but for what only the JPEG stream knows.
-// Errors: OutOfMemory, LibraryFailed; decode_jpeg(): InvalidInput too. Thread: any.
-// raw: Bits8 behind a colour filter, rows without padding.
+// Colour out of a mosaic, of YUV and of JPEG, into width_px * 3 bytes a row without padding. Shapes and room
+// are checked before, but for what only the JPEG stream knows. Errors: OutOfMemory, LibraryFailed;
+// decode_jpeg(): InvalidInput too. Thread: any. raw: Bits8 behind a colour filter, rows without padding.
 Result<void> demosaic(const RawImage& raw, std::byte* rgb);
 // raw: Yuyv or Nv12.
 Result<void> yuv_to_rgb(const RawImage& raw, std::byte* rgb);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// RawImage: one picture as a driver hands it over, in memory that the driver owns: samples of a sensor,
-// YUV, or a compressed stream. Row-major; samples of more than 8 bit are little-endian.
-// Thread: any.
+// RawImage: one picture as a driver hands it over, in memory that the driver owns: samples of a sensor, YUV,
+// or a compressed stream. Row-major; samples of more than 8 bit are little-endian. Thread: any.
 #pragma once
 
 #include <cstddef>

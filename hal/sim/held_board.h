@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// HeldBoard: a printed board in a hand, photographed many times a second: both cameras at the same
-// instant, blurred by whatever it moves while the shutter is open. Even light, a clean board.
-// The same poses and the same seed give the same pictures, for any number of threads.
-// Thread: one caller; it uses its own pool.
+// HeldBoard: a printed board in a hand, photographed many times a second: both cameras at the same instant,
+// blurred by whatever it moves while the shutter is open. Even light, a clean board. The same poses and the
+// same seed give the same pictures, for any number of threads. Thread: one caller; it uses its own pool.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The simulated rig's pictures as files: what `relievo simulate` writes.
-// Thread: any; one at a time per pool.
+// The simulated rig's pictures as files: what `relievo simulate` writes. Thread: any; one at a time per pool.
 #pragma once
 
 #include <cstdint>

@@ -50,16 +50,14 @@ using OutlierFilter = std::function<Result<void>(PointCloud& cloud, StageContext
 // but not measured: whichever mesher ran, a head's frame and its landmarks are found on the same.
 inline constexpr double kMeasuredSigmaMm = 0.75;
 
-// Points to one connected, consistently oriented surface with normals.
-// Errors: PoorGeometry (no surface of a face's size), InvalidInput (it needs more triangles than allowed),
-// OutOfMemory, Cancelled.
+// Points to one connected, consistently oriented surface with normals. Errors: PoorGeometry (no surface of a
+// face's size), InvalidInput (it needs more triangles than allowed), OutOfMemory, Cancelled.
 using Mesher = std::function<Result<FaceMesh>(const PointCloud& cloud, StageContext& context)>;
 
-// Gives a measured surface what the cameras did not see. Completed vertices carry measured = 0
-// and a sigma_mm of their own; what was measured stays bit for bit where it is. One connected manifold
-// surface comes out. A surface in which no head is found, or to which nothing can be added, comes back as it
-// is. Errors: OutOfMemory, Cancelled. `across`: which way runs across the person, as find_head_frame() wants
-// it.
+// Gives a measured surface what the cameras did not see. Completed vertices carry measured = 0 and a sigma_mm
+// of their own; what was measured stays bit for bit where it is. One connected manifold surface comes out. A
+// surface in which no head is found, or to which nothing can be added, comes back as it is. Errors:
+// OutOfMemory, Cancelled. `across`: which way runs across the person, as find_head_frame() wants it.
 using Completion = std::function<Result<FaceMesh>(FaceMesh mesh, const Vec3d& across, StageContext& context)>;
 
 // Lays the pictures of both views over the surface.

@@ -136,8 +136,7 @@ std::optional<PoseBlend::Placed> PoseBlend::step(const Vec3f& at, const Vec3f& n
 // where another takes its place.
 PoseBlend::Placed PoseBlend::mean_of(std::array<Seen, kMostPoses>& seen, std::size_t best, const Vec3f& at,
                                      const Vec3f& normal) const {
-  // A surface that fades out is no surer at its end than the others, else they would take its place at
-  // once.
+  // A surface that fades out is no surer at its end than the others, else they would take its place at once.
   float least = seen[best].certainty;
   for (const Seen& s : seen)
     if (s.weight > 0) least = std::min(least, s.certainty);

@@ -5,12 +5,11 @@
 // camera's frame. All poses at once, each against each: what a pose measured is laid onto every other one's
 // surface (point to plane; Chen, Medioni 1992, projected as Blais, Levine 1995), with a redescending weight
 // (Geman, McClure 1987) that narrows to the noise. A living face moves: forehead, temples, the bridge of the
-// nose, the sides and the ears count, lids, lips, jaw and neck hardly do.
-// Beside its shape the skin's photographs count (`fuse/skin_slide.cc`): shape alone hardly tells whether a
-// head slid along its own surface. Skin slides, too, the less the nearer it hangs on the skull. Where skin
-// moves, its patches count alike, however well each was measured. The covariance holds how far regions of
-// skin were seen to move, each as one: what one region moved is one observation and not a thousand.
-// Millimetres, radians.
+// nose, the sides and the ears count, lids, lips, jaw and neck hardly do. Beside its shape the skin's
+// photographs count (`fuse/skin_slide.cc`): shape alone hardly tells whether a head slid along its own
+// surface. Skin slides, too, the less the nearer it hangs on the skull. Where skin moves, its patches count
+// alike, however well each was measured. The covariance holds how far regions of skin were seen to move, each
+// as one: what one region moved is one observation and not a thousand. Millimetres, radians.
 #pragma once
 
 #include <array>

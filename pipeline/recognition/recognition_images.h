@@ -45,9 +45,8 @@ Portrait draw_portrait(const FaceModel& model, std::pmr::memory_resource* output
                        std::pmr::memory_resource* scratch);
 
 // A textured model seen by a pinhole camera, drawn in software: nearest surface in front, texture between its
-// texels, four samples a pixel. Triangles are far smaller than their distance, so the texture is
-// interpolated affinely across them (error below a tenth of a texel).
-// Throws std::bad_alloc. Thread: any.
+// texels, four samples a pixel. Triangles are far smaller than their distance, so the texture is interpolated
+// affinely across them (error below a tenth of a texel). Throws std::bad_alloc. Thread: any.
 struct ViewCamera {
   RigidTransform view_from_camera;  // from the left camera's frame; x right, y down, z away from this camera
   double focal_px = 0;

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Makes the backdrop of a face: on the head's chart (head_chart.h) its rim is continued to a head's rough
-// shape, an ellipsoid, and coloured by the left photograph. It fades with the distance from the face,
-// where it turns away from the camera, and beside the jaw where it looks like the room there, so that little
-// of the room is left. Memory: the backdrop in `output`, the rest in `scratch`. Thread: any. Throws
-// std::bad_alloc.
+// shape, an ellipsoid, and coloured by the left photograph. It fades with the distance from the face, where
+// it turns away from the camera, and beside the jaw where it looks like the room there, so that little of the
+// room is left. Memory: the backdrop in `output`, the rest in `scratch`. Thread: any. Throws std::bad_alloc.
 #pragma once
 
 #include "pipeline/base/stage.h"

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Randomness that depends on a seed and a place only: the same head has the same pores everywhere,
-// on every machine. Random is a sequence (SplitMix64), the others are fields over space.
-// Thread: any.
+// Randomness that depends on a seed and a place only: the same head has the same pores everywhere, on every
+// machine. Random is a sequence (SplitMix64), the others are fields over space. Thread: any.
 #pragma once
 
 #include <cstdint>

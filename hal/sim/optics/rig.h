@@ -3,10 +3,9 @@
 //
 // SimRig: the two simulated cameras, as exactly known as nothing in life is.
 //
-// World: the left camera before rectification: x right, y down, z forward, millimetres; pixel
-// coordinates have their origin at the centre of the top left pixel. Lens: Brown-Conrady
-// (k1 k2 p1 p2 k3), as OpenCV names them. Shares no code with the reconstruction.
-// Thread: any.
+// World: the left camera before rectification: x right, y down, z forward, millimetres; pixel coordinates
+// have their origin at the centre of the top left pixel. Lens: Brown-Conrady (k1 k2 p1 p2 k3), as OpenCV
+// names them. Shares no code with the reconstruction. Thread: any.
 #pragma once
 
 #include <cstdint>

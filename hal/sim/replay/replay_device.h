@@ -23,8 +23,7 @@
 
 namespace relievo::hal {
 
-// FolderMedia: a folder that plays the USB stick. plug() and unplug() are what a hand would do.
-// Thread: any.
+// FolderMedia: a folder that plays the USB stick. plug() and unplug() are what a hand would do. Thread: any.
 class FolderMedia final : public RemovableMedia {
  public:
   FolderMedia() = default;

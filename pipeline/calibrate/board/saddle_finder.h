@@ -4,9 +4,8 @@
 // Places where two edges cross and dark meets dark across a corner: what every inner corner of a
 // chessboard looks like, whatever its tilt, blur and light. Inside calibrate/board/ only.
 //
-// Candidates are saddles of the smoothed brightness (negative determinant of the Hessian); each must
-// then show two dark and two bright sectors, alike across the middle, on a circle around it.
-// Thread: any.
+// Candidates are saddles of the smoothed brightness (negative determinant of the Hessian); each must then
+// show two dark and two bright sectors, alike across the middle, on a circle around it. Thread: any.
 #pragma once
 
 #include <array>

@@ -4,11 +4,10 @@
 // SgmMatcher ("sgm"): semi-global matching down a ladder of sizes (semi_global.h), by default from an eighth
 // of the size to half. Blind to gain and offset. Pixels of full size unless named otherwise.
 //
-// Memory: 6 bytes a candidate and pixel of the finest size (166 MB at full 1920 x 1200, 12 candidates).
-// cost is one minus the correlation of 9 x 9 pixels at the match; what does not correlate is no match.
-// sigma_px: the scatter of the field around its own plane over 5 x 5 pixels of the finest size, and a sixth
-// of such a pixel for the fit (the scatter of neighbours understates an error they share). Errors: as
-// Matcher.
+// Memory: 6 bytes a candidate and pixel of the finest size (166 MB at full 1920 x 1200, 12 candidates). cost
+// is one minus the correlation of 9 x 9 pixels at the match; what does not correlate is no match. sigma_px:
+// the scatter of the field around its own plane over 5 x 5 pixels of the finest size, and a sixth of such a
+// pixel for the fit (the scatter of neighbours understates an error they share). Errors: as Matcher.
 #pragma once
 
 #include "pipeline/base/kinds.h"

@@ -9,13 +9,12 @@
 //
 //   E(d) = sum w (residual + gradient * delta)^2 + lambda * sum omega |second differences of d|^2
 //
-// so the effective window grows where the skin is plain and shrinks where it is rich, and a curved
-// surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
-// sharply (iteratively reweighted, bending_system.h), so that eyelids and nostrils keep their creases, lips
-// their wrinkles. sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed
-// form of the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds,
-// and what uneven light does (misread_px). Memory: scratch only. Results do not depend on the number of
-// threads.
+// so the effective window grows where the skin is plain and shrinks where it is rich, and a curved surface is
+// not pulled flat (second order: planes cost nothing). omega falls where the surface bends sharply
+// (iteratively reweighted, bending_system.h), so that eyelids and nostrils keep their creases, lips their
+// wrinkles. sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed form of
+// the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds, and what
+// uneven light does (misread_px). Memory: scratch only. Results do not depend on the number of threads.
 #pragma once
 
 #include <cstdint>

@@ -5,9 +5,8 @@
 // triangles as it may have however near it stood. A new node lies on the old surface: where all of its
 // neighbourhood is surface on the cubic through 4 x 4 nodes (Keys 1981, a = -1/2), which does not flatten
 // what is curved between nodes, else on its cell or triangle. A new triangle is made only where the old
-// surface lies under all of it: no hole is filled, no step bridged, nothing put beyond the old edges.
-// The new cells may grow towards the lattice's edges, where a face's crop holds hair, neck and cheeks seen
-// askew.
+// surface lies under all of it: no hole is filled, no step bridged, nothing put beyond the old edges. The new
+// cells may grow towards the lattice's edges, where a face's crop holds hair, neck and cheeks seen askew.
 #pragma once
 
 #include <memory_resource>

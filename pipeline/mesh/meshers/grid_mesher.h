@@ -4,17 +4,16 @@
 // GridMesher (`grid`, the default): joins neighbours of the pixel lattice on which a dense matcher
 // measured, a face on its head's chart (head_chart.h). Needs PointCloud::lattice_step_px > 0.
 //
-// Promises: one connected component (the largest), every edge in at most two triangles, one fan a
-// vertex, counter-clockwise seen from the cameras, no measured triangle steeper than max_incidence_deg to
-// the line of sight of that view, a straightened boundary without fringe, no angle below
-// kSmallestAngleDeg where noise allows it, never more than max_triangles. Where the cloud says from which
-// views it comes and holds a head, the face is closed and cut to its outline (surface_shaping.h): what was
-// completed has measured = 0 and may turn away from the cameras. Elsewhere small holes are closed with a
-// thin-plate surface, larger ones stay open. So is marked what is less certain than measured_sigma_mm (a chin
-// that moved between the exposures). sigma_mm is perpendicular to the surface: the line of sight's sigma
-// times the cosine of the angle of incidence. Frame: the left camera's, millimetres. Memory: arenas only.
-// Errors: Unsupported (scattered points), PoorGeometry (no surface of a face's size), OutOfMemory,
-// Cancelled. Thread: any; keeps no state.
+// Promises: one connected component (the largest), every edge in at most two triangles, one fan a vertex,
+// counter-clockwise seen from the cameras, no measured triangle steeper than max_incidence_deg to the line of
+// sight of that view, a straightened boundary without fringe, no angle below kSmallestAngleDeg where noise
+// allows it, never more than max_triangles. Where the cloud says from which views it comes and holds a head,
+// the face is closed and cut to its outline (surface_shaping.h): what was completed has measured = 0 and may
+// turn away from the cameras. Elsewhere small holes are closed with a thin-plate surface, larger ones stay
+// open. So is marked what is less certain than measured_sigma_mm (a chin that moved between the exposures).
+// sigma_mm is perpendicular to the surface: the line of sight's sigma times the cosine of the angle of
+// incidence. Frame: the left camera's, millimetres. Memory: arenas only. Errors: Unsupported (scattered
+// points), PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
 #pragma once
 
 #include "pipeline/base/kinds.h"

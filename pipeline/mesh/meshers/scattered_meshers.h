@@ -36,11 +36,10 @@ struct AdvancingFrontMesher {
 };
 
 // RbfMesher (`rbf`): the depth of the face as one polyharmonic function (thin plate, r^2 log r, with an
-// affine part), fitted to the measured points with centres chosen greedily: it begins with few, and adds
-// them where the function is furthest from the points, a few cells apart, until `accuracy_mm` or
-// `max_centres` is reached (Carr et al. 2001, section 4). Each centre may leave its point by what its
-// sigma allows (their approximating spline, section 5; weights 1 / sigma^2). Memory: max_centres^2 doubles at
-// most.
+// affine part), fitted to the measured points with centres chosen greedily: it begins with few, and adds them
+// where the function is furthest from the points, a few cells apart, until `accuracy_mm` or `max_centres` is
+// reached (Carr et al. 2001, section 4). Each centre may leave its point by what its sigma allows (their
+// approximating spline, section 5; weights 1 / sigma^2). Memory: max_centres^2 doubles at most.
 struct RbfMesher {
   int max_points = 160'000;  // more are thinned evenly
   int max_centres = 1400;

@@ -20,10 +20,9 @@
 
 namespace relievo::pipeline {
 
-// Brings the right photograph to the left one's exposure and white balance: a gain and an offset per
-// channel, found on skin that both see. Reduced major axis (both pictures are noisy), repeated with Tukey's
-// weights, against highlights, hair and edges (Huber, Ronchetti: Robust Statistics, 2009, ch. 7). Grey
-// levels.
+// Brings the right photograph to the left one's exposure and white balance: a gain and an offset per channel,
+// found on skin that both see. Reduced major axis (both pictures are noisy), repeated with Tukey's weights,
+// against highlights, hair and edges (Huber, Ronchetti: Robust Statistics, 2009, ch. 7). Grey levels.
 struct ExposureMatch {
   std::array<float, 3> gain{1, 1, 1};
   std::array<float, 3> offset{0, 0, 0};

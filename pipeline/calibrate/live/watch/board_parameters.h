@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where and how a board lies in one camera's picture, in a few numbers that need no calibration.
-// Thread: any.
+// Where and how a board lies in one camera's picture, in a few numbers that need no calibration. Thread: any.
 #pragma once
 
 #include <array>

@@ -129,8 +129,7 @@ using CornerMeasure = float (*)(float xx, float xy, float yy, float parameter);
 float smaller_eigenvalue(float xx, float xy, float yy, float);          // Shi and Tomasi 1994
 float harris_measure(float xx, float xy, float yy, float sensitivity);  // Harris and Stephens 1988
 
-// Fills `response`: 0 where nothing may be selected and where the measure is negative. Error:
-// Cancelled.
+// Fills `response`: 0 where nothing may be selected and where the measure is negative. Error: Cancelled.
 Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
                              const ResponseWindow& window, CornerMeasure measure, float parameter,
                              StageContext& context, Plane<float>& response);
