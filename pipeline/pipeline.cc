@@ -13,7 +13,6 @@
 #include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/model_quality.h"
 #include "pipeline/texture/backdrop_maker.h"
-#include "pipeline/texture/texture_sharpness.h"
 
 namespace relievo::pipeline {
 namespace {

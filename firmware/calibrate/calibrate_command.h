@@ -25,7 +25,7 @@
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
 #include "hal/device.h"
-#include "hal/recording/picture_pairs.h"
+#include "hal/recording/capture_file.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/live/live_state.h"

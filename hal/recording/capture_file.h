@@ -63,4 +63,14 @@ Result<void> write_capture_file(const std::filesystem::path& file, const Capture
 // left, right, left, right ... of the frames that capture.json names, in its order. NotFound: one is missing.
 Result<std::vector<std::filesystem::path>> recorded_pictures(const std::filesystem::path& folder);
 
+struct PicturePairFiles {
+  std::string name;  // what follows "left" and "right", without _ or - before it; nothing does: "left/right"
+  std::filesystem::path left, right;
+};
+
+// The left* and right* pictures (png, jpg) of a folder, paired by what follows in their names, in the order
+// of their names. Errors: NotFound (no folder, no picture), InvalidInput (no partner, two of one name),
+// IoFailed. Thread: any.
+Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder);
+
 }  // namespace relievo::hal

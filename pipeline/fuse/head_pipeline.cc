@@ -7,7 +7,6 @@
 #include "pipeline/fuse/head_texturer.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/model_quality.h"
-#include "pipeline/texture/texture_sharpness.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -24,7 +24,7 @@ struct ModelQuality {
   double height_mm = 0;
   double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
   double epipolar_residual_px = 0;  // rms vertical disagreement of the face's matches, before any realignment
-  double texture_sharpness = 0;     // 0 blurred to 1 sharp, of the photographed texels (texture_sharpness.h)
+  double texture_sharpness = 0;     // 0 blurred to 1 sharp, of the photographed texels (model_quality.h)
   double symmetry_residual_mm = 0;  // median distance of the mirrored face from the face
   ReliefFigures relief;             // all 0 where nothing could be told, or nobody asked
 };

@@ -18,9 +18,9 @@
 
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/mesh/model_quality.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/recognition/recognition_images.h"
-#include "pipeline/texture/texture_sharpness.h"
 #include "pipeline/texture/texturers.h"
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/model_files.h"

@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "hal/recording/capture_file.h"
-#include "hal/recording/picture_pairs.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/replay_device.h"
 
