@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 #include <memory_resource>
+#include <mutex>
 #include <new>
 #include <span>
 
@@ -61,6 +62,24 @@ class Arena final : public std::pmr::memory_resource {
   std::span<std::byte> block_;
   std::size_t used_ = 0;
   std::size_t high_water_ = 0;
+};
+
+// An arena from which several threads take. What they took goes with it.
+class SharedArena final : public std::pmr::memory_resource {
+ public:
+  explicit SharedArena(Arena& arena) : arena_(arena), mark_(arena) {}
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    const std::lock_guard lock(mutex_);
+    return arena_.allocate(bytes, alignment);
+  }
+  void do_deallocate(void*, std::size_t, std::size_t) override {}
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  Arena& arena_;
+  Arena::Mark mark_;
+  std::mutex mutex_;
 };
 
 }  // namespace relievo

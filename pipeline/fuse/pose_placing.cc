@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
-#include "pipeline/base/shared_arena.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/fuse/pose_residuals.h"
 

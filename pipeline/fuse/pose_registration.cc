@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "hal/base/statistics.h"
-#include "pipeline/base/shared_arena.h"
 #include "pipeline/fuse/pose_residuals.h"
 
 namespace relievo::pipeline {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "hal/base/statistics.h"
-#include "pipeline/base/shared_arena.h"
 
 namespace relievo::pipeline {
 namespace {
