@@ -53,8 +53,6 @@ class TriggerLine {
   // The clock lives longer than the line.
   explicit TriggerLine(const Clock& clock) : clock_(clock), guard_(clock.now()) {}
   virtual ~TriggerLine() = default;
-  TriggerLine(const TriggerLine&) = delete;
-  TriggerLine& operator=(const TriggerLine&) = delete;
 
   // Drives the line active for `width`, then inactive; leaves it inactive on error.
   // InvalidInput: no width, or one over kLongestPulse. Timeout: the light must rest until flash_allowed_at().

@@ -26,8 +26,6 @@ class ThreadPool {
   // `threads` counts the caller: 1 makes no thread at all.
   explicit ThreadPool(int threads);
   ~ThreadPool();
-  ThreadPool(const ThreadPool&) = delete;
-  ThreadPool& operator=(const ThreadPool&) = delete;
 
   int size() const { return int(threads_.size()) + 1; }
 

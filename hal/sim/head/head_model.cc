@@ -88,6 +88,26 @@ Vec3 sky_direction(Vec3 n, int i, int count, std::uint32_t hash) {
   return side * (r * std::cos(angle)) + up * (r * std::sin(angle)) + n * std::sqrt(1 - r2);
 }
 
+// The surface of an ellipsoid.
+void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {
+  constexpr std::uint32_t kRings = 60, kSpokes = 120;
+  const auto base = std::uint32_t(mesh.points.size());
+  for (std::uint32_t i = 0; i <= kRings; ++i)
+    for (std::uint32_t j = 0; j < kSpokes; ++j) {
+      // Poles left and right: the pupil lies where the net is even.
+      const double a = i * 3.141592653589793 / kRings, b = j * 6.283185307179586 / kSpokes;
+      mesh.points.push_back(
+          to_floats(centre + Vec3{radii.x * std::cos(a), radii.y * std::sin(a) * std::sin(b),
+                                  radii.z * std::sin(a) * std::cos(b)}));
+    }
+  for (std::uint32_t i = 0; i < kRings; ++i)
+    for (std::uint32_t j = 0; j < kSpokes; ++j) {
+      const std::uint32_t p = base + i * kSpokes + j, q = base + i * kSpokes + (j + 1) % kSpokes;
+      mesh.triangles.push_back({p, q, p + kSpokes});
+      mesh.triangles.push_back({q, q + kSpokes, p + kSpokes});
+    }
+}
+
 }  // namespace
 
 Surface skin_look(const HeadField& f, Vec3 p) {
@@ -186,25 +206,6 @@ Surface shirt_look(const HeadTraits& t, Vec3 p) {
   const double weave = 0.12 * std::sin(p.x * 5.2 + 0.3 * std::sin(p.z)) * std::sin((p.y + p.z) * 5.2) +
                        0.10 * value_noise(p * 1.1, t.seed + 71);
   return {kColours[std::size_t(t.shirt) % kColours.size()] * (1 + weave), 0.15, 0.7, 0};
-}
-
-void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {
-  constexpr std::uint32_t kRings = 60, kSpokes = 120;
-  const auto base = std::uint32_t(mesh.points.size());
-  for (std::uint32_t i = 0; i <= kRings; ++i)
-    for (std::uint32_t j = 0; j < kSpokes; ++j) {
-      // Poles left and right: the pupil lies where the net is even.
-      const double a = i * 3.141592653589793 / kRings, b = j * 6.283185307179586 / kSpokes;
-      mesh.points.push_back(
-          to_floats(centre + Vec3{radii.x * std::cos(a), radii.y * std::sin(a) * std::sin(b),
-                                  radii.z * std::sin(a) * std::cos(b)}));
-    }
-  for (std::uint32_t i = 0; i < kRings; ++i)
-    for (std::uint32_t j = 0; j < kSpokes; ++j) {
-      const std::uint32_t p = base + i * kSpokes + j, q = base + i * kSpokes + (j + 1) % kSpokes;
-      mesh.triangles.push_back({p, q, p + kSpokes});
-      mesh.triangles.push_back({q, q + kSpokes, p + kSpokes});
-    }
 }
 
 void smooth_over(const Mesh& mesh, std::vector<float>& values, int times) {

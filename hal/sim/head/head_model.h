@@ -80,8 +80,6 @@ class HeadModel {
   void measure_openness(ThreadPool& pool);
 };
 
-// The surface of an ellipsoid.
-void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii);
 // Averages each value with its neighbours': takes the grain out of sampled light.
 void smooth_over(const Mesh& mesh, std::vector<float>& values, int times);
 

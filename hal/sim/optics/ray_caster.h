@@ -56,8 +56,6 @@ class RayCaster {
   static constexpr int kFirstStrands = 1000;
   RayCaster();
   ~RayCaster();
-  RayCaster(const RayCaster&) = delete;
-  RayCaster& operator=(const RayCaster&) = delete;
 
   // Copies. Meshes alone block light and define the truth: strands are never solid.
   void add(const Mesh& mesh);

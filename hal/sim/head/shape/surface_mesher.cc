@@ -35,9 +35,8 @@ struct Grid {
 
 // One slab of blocks. Values on shared faces are computed twice rather than shared between threads.
 void fill_slab(Grid& g, const Field& field, int bz) {
-  const double half = kBlock * g.step / 2,
-               reach =
-                   half * 1.75 * 1.35 + 2;  // half diagonal, and slack for a field that is no true distance
+  // Half diagonal, and slack for a field that is no true distance.
+  const double half = kBlock * g.step / 2, reach = half * 1.75 * 1.35 + 2;
   for (int by = 0; by < g.ny / kBlock; ++by)
     for (int bx = 0; bx < g.nx / kBlock; ++bx) {
       const double centre = field(g.place(bx * kBlock, by * kBlock, bz * kBlock) + Vec3{half, half, half});
