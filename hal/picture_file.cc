@@ -121,9 +121,7 @@ Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
 
 Result<Picture> read_picture(const std::filesystem::path& file) {
   RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, read_whole_file(file, kMaxEncodedBytes));
-  Result<Picture> picture = decode_picture(bytes.data(), bytes.size());
-  if (!picture) return picture.error().at(file.native());
-  return picture;
+  return decode_picture(bytes.data(), bytes.size()).at(file.native());
 }
 
 Result<void> write_picture(const std::filesystem::path& file, const ImageView& image) {

@@ -121,11 +121,10 @@ class GpiodOutputLines final : public OutputLines {
 }  // namespace
 
 Result<std::unique_ptr<OutputLines>> request_gpiod_lines(const GpioOptions& options) {
-  auto lines = Lines::request(options);
-  if (!lines) return lines.error().at(options.chip);
+  RELIEVO_TRY_ASSIGN(Lines lines, Lines::request(options).at(options.chip));
   // The child shares the requested lines, so that the kernel does not give them free before it has set them.
-  RELIEVO_TRY_ASSIGN(LastWill will, LastWill::make([&lines] { set_all_inactive(*lines); }));
-  return std::unique_ptr<OutputLines>(std::make_unique<GpiodOutputLines>(*std::move(lines), std::move(will)));
+  RELIEVO_TRY_ASSIGN(LastWill will, LastWill::make([&lines] { set_all_inactive(lines); }));
+  return std::unique_ptr<OutputLines>(std::make_unique<GpiodOutputLines>(std::move(lines), std::move(will)));
 }
 
 }  // namespace relievo::hal
