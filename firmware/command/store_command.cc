@@ -11,9 +11,11 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
+#include "firmware/service/consent_text_store.h"
 #include "hal/base/wiped_text.h"
 #include "hal/base/words.h"
 #include "storage/cipher/recovery.h"
+#include "storage/store_folder.h"
 
 namespace relievo::firmware {
 namespace {
@@ -22,6 +24,11 @@ Result<void> check(const StoreArgs& args, const Path& folder, Services& services
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
   RELIEVO_TRY(store->check());
   RELIEVO_TRY_ASSIGN(const storage::Signed signs, store->sign({}));
+  RELIEVO_TRY_ASSIGN(const auto broken, broken_consents(*store, folder / "consent"));
+  for (const Error& error : broken) services.console.fail(error);
+  if (!broken.empty())
+    return Error{Errc::NotFound, "the store is in order, what people agreed to is not: see above"}.at(
+        folder.string());
   services.console.say("in order: " + folder.string());
   services.console.say("what it exports is signed by " + text_of(signs.by));
   if (args.file.empty()) return {};
@@ -98,6 +105,17 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   return {};
 }
 
+// The key that lay beside the store stays there: copies made before need it.
+void say_old_key(const StoreArgs& args, const Path& folder, Services& services) {
+  const Path old = folder / storage::kKeyFile;
+  std::error_code ignored;
+  if (args.file.empty() || !std::filesystem::exists(old, ignored) ||
+      std::filesystem::equivalent(old, args.file, ignored))
+    return;
+  services.console.say(old.string() + " is the old key: destroy it once no copy needs it");
+  services.console.say("from now on name the new one: --key " + args.file.string());
+}
+
 // A call of its own: what it leaves on the stack can be wiped when it has returned.
 [[gnu::noinline]] Result<void> keep(const StoreArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
@@ -115,6 +133,7 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
       (void)interrupted();
       RELIEVO_TRY(keeping->rekey({args.file, args.tpm}));
       services.console.say("the keys are new; the old key opens only copies made before");
+      say_old_key(args, folder, services);
       return {};
     case StoreArgs::Verb::RecoveryWords: {
       RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));

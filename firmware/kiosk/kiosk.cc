@@ -26,17 +26,12 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
   return kiosk;
 }
 
-// None: nobody has calibrated this device yet.
-Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args,
-                                                                           Services& services) {
-  const hal::CaptureMode mode = device_->preferred_mode();
+Result<Kiosk::MaybeCalibration> Kiosk::find_calibration(const KioskArgs& args, const MaybeCalibration& given,
+                                                        Services& services) {
   std::string named = args.calibration.filename().string();
-  auto found = args.calibration.empty()
-                   ? store_->active_calibration()
-                   : pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
-  if (args.calibration.empty() && !found && found.error().code == Errc::NotCalibrated) {
-    if (args.device != "sim" || !services.simulated_calibration)
-      return std::optional<pipeline::StereoCalibration>();
+  auto found = given ? Result(*given) : store_->active_calibration();
+  if (!given && !found && found.error().code == Errc::NotCalibrated) {
+    if (args.device != "sim" || !services.simulated_calibration) return MaybeCalibration();
     found = services.simulated_calibration();
     named = "of the simulated rig";
   }
@@ -58,10 +53,9 @@ Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(std::vector<std::string>
 
 // Without a calibration everything is made that needs none: the rest comes with the first one
 // (make_test_capture).
-Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services,
+Result<void> Kiosk::set_up_measuring(const KioskArgs& args, const MaybeCalibration& given, Services& services,
                                      std::vector<std::string>& unknown) {
-  RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration,
-                     find_calibration(args, services));
+  RELIEVO_TRY_ASSIGN(const MaybeCalibration calibration, find_calibration(args, given, services));
   RELIEVO_TRY_ASSIGN(pipeline::AlgorithmSet set, chosen_algorithms(unknown));
   RELIEVO_TRY_ASSIGN(auto judge, calibration ? LiveJudge::open(*calibration)
                                              : LiveJudge::open(device_->preferred_mode().width_px));
@@ -97,6 +91,11 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   ui_ = std::make_unique<ui::Ui>(std::move(text));
   // Before the store: a trigger line leaves a process with a copy of all memory, and no key may be in it.
   RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
+  MaybeCalibration given;  // read before a store is made
+  if (const hal::CaptureMode mode = device_->preferred_mode(); !args.calibration.empty()) {
+    RELIEVO_TRY_ASSIGN(given,
+                       pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0}));
+  }
   RELIEVO_TRY_ASSIGN(const Path folder, store_folder(args.store));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(folder, true));
   may_tell_known_ = args.tells_known;
@@ -104,7 +103,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   if (services.turn_head && (args.device == "sim" || is_recorded_head(args.device)))
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   std::vector<std::string> unknown;
-  RELIEVO_TRY(set_up_measuring(args, services, unknown));
+  RELIEVO_TRY(set_up_measuring(args, given, services, unknown));
   open_speaker_ = services.open_speaker;
   if (services.find_presence_sensor) presence_ = services.find_presence_sensor();
   memory_ = std::make_unique<BootMemory>(budget::plan_of_a_head(device_->preferred_mode().pixels()));

@@ -79,11 +79,14 @@ class Kiosk {
  private:
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
-  Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args,
-                                                                      Services& services);
+  using MaybeCalibration = std::optional<pipeline::StereoCalibration>;  // none: nobody has calibrated yet
+  // `given`: that of --calibration.
+  Result<MaybeCalibration> find_calibration(const KioskArgs& args, const MaybeCalibration& given,
+                                            Services& services);
   // `unknown` gets what is no choice: the usual one holds.
   Result<pipeline::AlgorithmSet> chosen_algorithms(std::vector<std::string>& unknown);
-  Result<void> set_up_measuring(const KioskArgs& args, Services& services, std::vector<std::string>& unknown);
+  Result<void> set_up_measuring(const KioskArgs& args, const MaybeCalibration& given, Services& services,
+                                std::vector<std::string>& unknown);
   std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
   ui::Trouble out_of_order() const;
   void turn_simulated_head();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "firmware/base/output_folder.h"
@@ -13,6 +14,7 @@
 #include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
 #include "storage/export/bundle.h"
+#include "storage/sodium_sha256.h"
 
 namespace relievo::firmware {
 namespace {
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char *kHostFile = "operator.txt", *kSignFile = "sign.png", *kLinkFile = "link.txt";
 constexpr std::size_t kMostHostBytes = 80, kMostSignBytes = 1'000'000, kMostLinkBytes = 200;
 constexpr int kMostSignPx = 1024;
+constexpr std::string_view kConsentSetting = "consent-texts";  // "VERSION/LANGUAGE.txt SHA-256" a line
 
 Error wrong(const fs::path& file, Literal what) { return invalid(what).at(file.string()); }
 
@@ -69,6 +72,40 @@ std::optional<std::size_t> language_of(const fs::path& file) {
     if (file.filename() == std::string(ui::info_of(static_cast<ui::Language>(i)).code) + ".txt") return i;
   }
   return std::nullopt;
+}
+
+// Of the words as they are read: the same from an editor that ends its lines in another way.
+Result<std::string> text_sum(const fs::path& file) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_consent_text(file));
+  return storage::hex_of(storage::sha256(std::as_bytes(std::span(text))));
+}
+
+using TextSums = std::map<std::string, std::string>;  // VERSION/LANGUAGE.txt, SHA-256
+
+Result<TextSums> known_texts(storage::Store& store) {
+  RELIEVO_TRY_ASSIGN(const std::string kept, store.setting(kConsentSetting));
+  TextSums sums;
+  std::istringstream lines(kept);
+  for (std::string file, sum; lines >> file >> sum;) sums[file] = sum;
+  return sums;
+}
+
+// A language that comes later is remembered from then on.
+Result<void> remember_texts(storage::Store& store, const fs::path& folder, const std::string& version) {
+  RELIEVO_TRY_ASSIGN(TextSums sums, known_texts(store));
+  const std::size_t before = sums.size();
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / version, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_hidden(entry->path()) || !language_of(entry->path())) continue;
+    RELIEVO_TRY_ASSIGN(const std::string sum, text_sum(entry->path()));
+    sums.emplace(version + "/" + entry->path().filename().string(), sum);
+  }
+  if (error) return Error{Errc::IoFailed, "cannot be read"}.at((folder / version).string());
+  if (sums.size() == before) return {};
+  std::string lines;
+  for (const auto& [file, sum] : sums) lines += file + " " + sum + "\n";
+  return store.set_setting(kConsentSetting, lines);
 }
 
 Error not_kept() { return {Errc::IoFailed, "cannot be kept on this device: look at the room on its disk"}; }
@@ -245,9 +282,32 @@ Result<std::optional<ui::ConsentTexts>> own_consent(const fs::path& folder) {
   return read_consent(folder);
 }
 
-Result<void> ConsentTextStore::look() {
+Result<std::vector<Error>> broken_consents(storage::Store& store, const fs::path& folder) {
+  std::vector<Error> broken;
+  RELIEVO_TRY_ASSIGN(const TextSums sums, known_texts(store));
+  for (const auto& [file, sum] : sums) {
+    const auto now = text_sum(folder / file);
+    if (!now)
+      broken.push_back(wrong(folder / file, "is gone, and people agreed to it: put it back from a copy"));
+    else if (*now != sum)
+      broken.push_back(wrong(
+          folder / file,
+          "has other words than when people agreed to it: put them back, and give new ones a version of their own"));
+  }
+  return broken;
+}
+
+Result<void> ConsentTextStore::look(Console& console) {
   RELIEVO_TRY_ASSIGN(now_, own_consent(folder_));
-  return {};
+  RELIEVO_TRY_ASSIGN(const auto broken, broken_consents(store_, folder_));
+  std::error_code ignored;
+  for (const Error& error : broken) {
+    const fs::path file = error.where();
+    if (now_ && file.parent_path() == folder_ / now_->version && fs::exists(file, ignored)) return error;
+    console.fail(error);
+    log_.fault(error);
+  }
+  return now_ ? remember_texts(store_, folder_, now_->version) : Result<void>();
 }
 
 void ConsentTextStore::opened() {
@@ -265,6 +325,7 @@ void ConsentTextStore::take() {
       [this, now = now_](JobControl&) -> Result<Taken> {
         RELIEVO_TRY_ASSIGN(const std::filesystem::path stick, plugged_in(media_));
         auto taken = take_consent(stick, folder_, now);
+        if (taken && *taken) RELIEVO_TRY(remember_texts(store_, folder_, (*taken)->version));
         // Whatever failed: a stick that is gone is the reason.
         if (!taken && !media_.current()) return pulled_too_early();
         return taken;

@@ -6,19 +6,24 @@
 //   stick: consent/VERSION/LANGUAGE.txt --take()--> the store's consent/VERSION/ --adopt()--> in force
 //
 // It is checked on the stick (read_consent_version()), written beside what is in force, read back, and
-// gets its name then: whatever goes wrong, the text before stays. A version never changes its words,
-// because records name it.
-// Thread: main; the stick is read on the keeper. Errors of look(): see read_consent().
+// gets its name then: whatever goes wrong, the text before stays. A version never changes its words, because
+// records name it: the store remembers the SHA-256 of each text from when it comes into force.
+// Thread: main; the stick is read on the keeper. Errors of look(): see read_consent(), and InvalidInput where
+// the text in force has other words than when it came into force. An older text that is gone or changed, or
+// all of them, is named on the console and in the log.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "firmware/base/console.h"
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
 #include "hal/base/result.h"
 #include "hal/removable_media.h"
+#include "storage/store.h"
 #include "ui/view/staff_views.h"
 #include "ui/view/view_state.h"
 
@@ -51,15 +56,19 @@ Result<std::optional<ui::ConsentTexts>> take_consent(const std::filesystem::path
                                                      const std::filesystem::path& own,
                                                      const std::optional<ui::ConsentTexts>& now);
 
+// Of the texts that were ever in force, those that are gone from the store's folder consent or have other
+// words. Errors: the store's.
+Result<std::vector<Error>> broken_consents(storage::Store& store, const std::filesystem::path& folder);
+
 class ConsentTextStore {
  public:
   // `folder` is the store's.
-  ConsentTextStore(const std::filesystem::path& folder, hal::RemovableMedia& media, SideTasks& side_tasks,
-                   EventLog& log)
-      : folder_(folder / "consent"), media_(media), side_tasks_(side_tasks), log_(log) {}
+  ConsentTextStore(storage::Store& store, const std::filesystem::path& folder, hal::RemovableMedia& media,
+                   SideTasks& side_tasks, EventLog& log)
+      : store_(store), folder_(folder / "consent"), media_(media), side_tasks_(side_tasks), log_(log) {}
 
   // Before any thread uses it.
-  Result<void> look();
+  Result<void> look(Console& console);
   // None: our sample, which nobody has reviewed. Valid until adopt().
   const ui::ConsentTexts* now() const { return now_ ? &*now_ : nullptr; }
   // Takes over what the stick has; view() tells how it ended.
@@ -73,6 +82,7 @@ class ConsentTextStore {
  private:
   void failed(const Error& error);
 
+  storage::Store& store_;
   std::filesystem::path folder_;
   hal::RemovableMedia& media_;
   SideTasks& side_tasks_;

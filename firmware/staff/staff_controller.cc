@@ -173,7 +173,7 @@ StaffController::StaffController(Parts parts)
       settings_(parts_.store, side_tasks_, log_, parts_.device.clock()),
       retention_(parts_.store, side_tasks_, log_, parts_.device.clock()),
       touch_(parts_.store, side_tasks_, log_, parts_.device.clock()),
-      consent_(parts_.folder, parts_.device.media(), side_tasks_, log_),
+      consent_(parts_.store, parts_.folder, parts_.device.media(), side_tasks_, log_),
       services_{parts_.appliance, parts_.device, parts_.store,      side_tasks_, log_,
                 statistics_,      costs_,        settings_,         retention_,  touch_,
                 consent_,         parts_.folder, parts_.calibration},
@@ -196,7 +196,7 @@ Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
   RELIEVO_TRY(staff->sign_in_.look());
   RELIEVO_TRY(staff->settings_.look());
   RELIEVO_TRY(staff->touch_.look());
-  RELIEVO_TRY(staff->consent_.look());
+  RELIEVO_TRY(staff->consent_.look(staff->parts_.console));
   RELIEVO_TRY_ASSIGN(const std::string kept, staff->parts_.store.setting(kStatisticsSetting));
   if (!staff->statistics_.read(kept))
     staff->statistics_.begin(text_of(stored_time(staff->parts_.device.clock().wall_now())).substr(0, 10));

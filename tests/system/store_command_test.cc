@@ -77,6 +77,15 @@ TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
   EXPECT_NE(old_key.err.find("not the key of this store"), std::string::npos) << old_key.err;
   EXPECT_NE(done({"store", "check", "--store", "store"}).out.find("in order"), std::string::npos);
 
+  // Moved once more: what lies beside the store opens only copies made before, and is said to.
+  const Said moved = done({"store", "rekey", "--store", "store", "--new-key", "stick/third"});
+  EXPECT_NE(moved.out.find("store/relievo.key is the old key"), std::string::npos) << moved.out;
+  EXPECT_NE(moved.out.find("--key stick/third"), std::string::npos) << moved.out;
+  std::filesystem::remove(here / "store/relievo.key");
+  const Said back =
+      done({"store", "rekey", "--store", "store", "--key", "stick/third", "--new-key", "store/relievo.key"});
+  EXPECT_EQ(back.out.find("is the old key"), std::string::npos) << back.out;
+
   // A service of systemd finds its credential by the environment.
   std::filesystem::create_directory(here / "credentials");
   std::filesystem::rename(here / "store/relievo.key", here / "credentials/relievo.key");

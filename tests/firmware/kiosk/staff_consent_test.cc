@@ -112,6 +112,43 @@ TEST_F(StaffConsentTest, TheFirstStartTakesTheOperatorsTextAndItStays) {
   EXPECT_EQ(kiosk->view().consent->version, "2026-03");
 }
 
+TEST_F(StaffConsentTest, WhatPeopleAgreedToStaysAsItWas) {
+  write("2026-03", "de.txt", kGood);
+  come_to_it();
+  EXPECT_EQ(take(), Outcome::Done);
+  const Path own = args.store / "consent", text = own / "2026-03" / "de.txt";
+  const auto started = [&] {
+    kiosk.reset();
+    testing::internal::CaptureStderr();
+    auto opened = Kiosk::open(args, services);
+    const std::string said = testing::internal::GetCapturedStderr();
+    if (!opened) return std::string(opened.error().where()) + ": " + std::string(opened.error().what.view());
+    kiosk = std::move(*opened);
+    return said;
+  };
+  std::ofstream(text, std::ios::binary) << "Was hier geschieht\n\nEin Punkt\nund seine Worte.\n";
+  EXPECT_EQ(started(), "") << "the same words, from another editor";
+  std::ofstream(text) << "Was hier geschieht\n\nEin Punkt\nund andere Worte.\n";
+  EXPECT_EQ(started().find(text.string() + ": has other words"), 0U);
+  EXPECT_EQ(kiosk, nullptr) << "it does not start";
+  // Under a name of their own they may be shown. What people agreed to has to be put back all the same.
+  std::filesystem::rename(own / "2026-03", own / "2026-04");
+  EXPECT_EQ(started().find("relievo: " + text.string() + ": is gone"), 0U);
+  ASSERT_NE(kiosk, nullptr);
+  EXPECT_EQ(kiosk->view().consent->version, "2026-04");
+  std::filesystem::create_directory(own / "2026-03");
+  std::ofstream(text) << kGood;
+  EXPECT_EQ(started(), "");
+  std::ofstream(text) << "Etwas anderes\n\nEin Punkt\n";
+  EXPECT_EQ(started().find("relievo: " + text.string() + ": has other words"), 0U);
+  // Nor does the sample come without a word where the operator's texts are gone.
+  std::filesystem::rename(own, args.store / "elsewhere");
+  const std::string said = started();
+  EXPECT_NE(said.find("2026-03"), std::string::npos) << said;
+  EXPECT_NE(said.find("2026-04"), std::string::npos) << said;
+  EXPECT_EQ(kiosk->view().consent, nullptr);
+}
+
 TEST_F(StaffConsentTest, WhatIsWrongIsSaidAndNothingChanges) {
   come_to_it();
   EXPECT_EQ(take(), Outcome::NotFound);

@@ -83,7 +83,7 @@ class PageTest : public ApplianceTest {
   DeviceSettings settings{*store, side_tasks, log, device.clock()};
   RetentionWatch retention{*store, side_tasks, log, device.clock()};
   TouchTrial touch{*store, side_tasks, log, device.clock()};
-  ConsentTextStore consent{folder.path(), device.media(), side_tasks, log};
+  ConsentTextStore consent{*store, folder.path(), device.media(), side_tasks, log};
   std::uint32_t revision = 0;
   PageServices services{appliance, device,    *store, side_tasks, log,           statistics, costs,
                         settings,  retention, touch,  consent,    folder.path(), revision};
