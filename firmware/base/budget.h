@@ -131,7 +131,7 @@ inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again
 inline constexpr milliseconds kShortOfMemory{
     2'000};  // what was asked could not be done for so long: the program is ended
 inline constexpr milliseconds kMemoryIsBack{10'000};  // when so long nothing failed for want of it
-inline constexpr milliseconds kHeatLook{10'000};      // between two looks at how hot the machine is
+inline constexpr milliseconds kHealthLook{10'000};    // between two looks at heat and the disk's room
 inline constexpr milliseconds kMovedFacesRetry{
     60'000};                           // until what could not be noted of them is tried again
 inline constexpr int kMovedFaces = 2;  // on end that say the cameras have moved: one may have nodded

@@ -189,8 +189,7 @@ ui::Trouble Kiosk::out_of_order() const {
   if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
   if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces)
     return ui::Trouble::Calibration;
-  if (hot_) return ui::Trouble::Other;  // it switches itself off in the middle of somebody's visit
-  return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
+  return unwell_ == ui::Trouble::None && restarted_ ? ui::Trouble::Restarted : unwell_;
 }
 
 void Kiosk::look() {
@@ -347,15 +346,17 @@ void Kiosk::turn_once() {
     next_camera_look_ = view_.now + budget::kCameraReturn;
     (void)appliance_->start_side_job(JobLane::Capture, *look_at_cameras_);
   }
-  if (appliance_->state() == State::Idle && view_.now >= next_heat_look_) {
-    staff_->side_tasks().ask(
-        JobLane::Keeper, [this](JobControl&) { return Result(device_->too_hot()); },
-        [this](const Result<bool>& hot) {
-          if (hot) hot_ = *hot;
-          next_heat_look_ = view_.now + budget::kHeatLook;
-        },
-        SideTasks::Whose::Device);
-    next_heat_look_ = hal::Instant::max();  // until then: a keeper that hangs is asked once
+  if (appliance_->state() == State::Idle && view_.now >= next_health_look_) {
+    const auto look = [this, least_mib = view_.settings.of(ui::Setting::LeastRoomMib)](JobControl&) {
+      const auto room = visits_->has_room(least_mib) ? ui::Trouble::None : ui::Trouble::Storage;
+      return Result(device_->too_hot() ? ui::Trouble::Other : room);
+    };
+    const auto seen = [this](const Result<ui::Trouble>& unwell) {
+      if (unwell) unwell_ = *unwell;
+      next_health_look_ = view_.now + budget::kHealthLook;
+    };
+    staff_->side_tasks().ask(JobLane::Keeper, look, seen, SideTasks::Whose::Device);
+    next_health_look_ = hal::Instant::max();  // until then: a keeper that hangs is asked once
   }
   if (turn_head_) turn_simulated_head();
   staff_->turn();

@@ -125,8 +125,9 @@ class Kiosk {
   bool may_tell_known_ = true;
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
-  bool restarted_ = false, told_ = false, hot_ = false;
-  hal::Instant next_heat_look_{};
+  bool restarted_ = false, told_ = false;
+  ui::Trouble unwell_ = ui::Trouble::None;  // too hot (Other), or its disk is full
+  hal::Instant next_health_look_{};
   std::optional<hal::Instant> short_since_;  // of memory, again and again
   hal::Instant short_last_{};
   storage::WallTime newest_record_{};

@@ -57,6 +57,11 @@ Result<void> CodeGuard::was_right() {
   return write(record);
 }
 
+bool StoredVisits::has_room(std::int32_t least_mib) const {
+  const auto room = disk_has_room(folder_, least_mib);
+  return room || room.error().code != Errc::MediaFull;
+}
+
 Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::FaceModel& model) {
   RELIEVO_TRY(disk_has_room(folder_, record.least_room_mib));
   const auto now = stored_time(clock_.wall_now());

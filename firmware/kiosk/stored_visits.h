@@ -26,6 +26,8 @@ class StoredVisits : public VisitRecords {
   StoredVisits(storage::Store& store, const hal::Clock& clock, std::filesystem::path folder)
       : store_(store), clock_(clock), folder_(std::move(folder)) {}
   Result<KeptVisit> keep(const VisitRecord& record, const pipeline::FaceModel& model) override;
+  // False also means that keep() would say MediaFull; a disk that does not tell has room.
+  bool has_room(std::int32_t least_mib) const;
   // At most kMostWrongCodes an hour are looked at (CodeGuard).
   Result<RecordAnswer> look_up(const RecordQuestion& question) override;
 

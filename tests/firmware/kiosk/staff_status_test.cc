@@ -158,7 +158,7 @@ TEST_F(StaffStatusTest, AKeeperThatHangsIsAskedForTheHeatOnce) {
   };
   start();
   for (int look = 0; look < 5; ++look) {
-    time.advance(budget::kHeatLook);
+    time.advance(budget::kHealthLook);
     kiosk->turn();
   }
   hangs = false;

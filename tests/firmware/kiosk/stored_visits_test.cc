@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "firmware/records/receipt.h"
 #include "tests/firmware/played_appliance.h"
 #include "tests/storage/sample.h"
@@ -68,6 +70,20 @@ TEST_F(StoredVisitsTest, WhatWasStoredHasItsCodeThoughNothingCanBeReadAfterIt) {
   ASSERT_TRUE(whom.has_value());
   EXPECT_EQ(whom->name, "Ada");
   EXPECT_EQ(store.enrolment(told->enrolment)->subject, whom->id);
+}
+
+TEST_F(StoredVisitsTest, WhereTheDiskHasNoRoomItIsKnownBeforeAnybodyComes) {
+  StoredVisits visits(store, clock, folder.path());
+  constexpr auto kMost = std::numeric_limits<std::int32_t>::max();
+  EXPECT_TRUE(visits.has_room(1));
+  EXPECT_FALSE(visits.has_room(kMost)) << "as many MiB as no disk has";
+  VisitRecord record = named("Ada");
+  record.least_room_mib = kMost;
+  const Result<KeptVisit> refused = visits.keep(record, storage::test::sample_model());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Errc::MediaFull);
+  StoredVisits nowhere(store, clock, folder.path() / "gone");
+  EXPECT_TRUE(nowhere.has_room(1)) << "a disk that does not tell keeps nobody out";
 }
 
 // Else the record would be erased for an age that it does not have.

@@ -107,6 +107,7 @@ TEST_F(TechnicianTest, SidesBecomeAHeadWhosePosesAreSeen) {
   constexpr double kYaws[] = {24, -22};
   for (std::size_t k = 0; k < 2; ++k) {
     turn_head(rig(), kYaws[k]);
+    ASSERT_TRUE(rig().until([&] { return rig().shows("add side"); })) << "once the cameras are not watched";
     rig().tap("add side");
     ASSERT_TRUE(rig().until([&] { return finished() && rig().now().sides == k + 1; }))
         << rig().now().problem.detail;
